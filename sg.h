@@ -1,0 +1,586 @@
+/*
+ sg.h - spherical Gaussians and virtual spherical Gaussian lights, version 0.1.0
+
+   #include "sg.h"
+
+   lobe_vec3 normal = {0, 0, 1}, sun = {0, 0.6f, 0.8f};
+   sg_lobe light = {sun, 50, 0};                      // axis, sharpness, log amplitude
+   sg_lobe diffuse = sg_diffuse_lobe(normal);
+   float at_sun = sg_eval(light, sun);                // 1
+   float lit = sg_product_integral(light, diffuse);   // reflected radiance per unit of albedo
+
+ Configuration, before inclusion:
+
+   macro        | default       | effect
+   LOBE_VEC3    | a struct      | the engine's own vector type with fields x, y, z
+   LOBE_API     | static inline | linkage of every function
+   LOBE_ASSERT  | nothing       | called with each domain condition, e.g. assert
+
+ Conventions: an SG is G(w) = exp(log_amplitude + sharpness (dot(w, axis) - 1)). Directions have unit length
+ (to 1e-6) and point away from the surface; wi points towards the incoming light. alpha is GGX or Beckmann
+ roughness. Colour stays outside the lobe. Lengths are in any one unit; powers in watts or any one unit.
+
+ Errors: "conditioned" is in (1 + |ln g|) 2^-24, g the exact value: what rounding of the inputs alone costs an
+ exponential. "ulp" is the spacing of floats at the exact value. "rel" is relative. Bounds hold for the sharpness
+ range given; sharpness up to 1e30 stays finite. Out of finite input comes no NaN and no infinity.
+
+ Functions:
+
+   sg_eval                          value in a direction
+   sg_integral                      over the sphere
+   sg_normalize                     scales the amplitude to unit integral
+   sg_product                       of two SGs, again an SG
+   sg_product_integral, _approx     exact; Iwasaki 2012
+   sg_convolve                      with a normalised SG kernel
+   sg_cosine_integral               against a clamped cosine
+   sg_mean_length                   Toksvig: length of the mean direction
+   sg_sharpness_from_mean_length    its inverse
+   sg_diffuse_lobe                  Lambert reflection lobe, normalised
+   sg_reflection_lobe               microfacet reflection lobe from the sharpness of an NDF
+   sg_ggx_lobe, sg_beckmann_lobe, sg_phong_lobe
+   vsgl_moments_from_vpl, vsgl_moments_add, vsgl_moments_scale
+   vsgl_from_moments                the light of a cluster of virtual point lights
+   vsgl_incoming_lobe               its radiance seen from a point
+   vsgl_diffuse                     its light reflected by a diffuse surface
+
+ Papers named in the sources: 000 and 002 are Tokuyoshi 2016, Modified Filtered Importance Sampling for Virtual
+ Spherical Gaussian Lights (000 the supplement); 001 is Tokuyoshi 2015, Virtual Spherical Gaussian Lights for
+ Real-Time Glossy Indirect Illumination (supplement); 004 is Tokuyoshi 2015, Specular Lobe-Aware Filtering and
+ Upsampling for Interactive Indirect Illumination.
+*/
+#ifndef LOBE_SG_H
+#define LOBE_SG_H
+
+#include <math.h>
+#include <string.h>
+
+#ifndef LOBE_API
+#    define LOBE_API static inline
+#endif
+#ifndef LOBE_ASSERT
+#    define LOBE_ASSERT(condition) ((void)0)
+#endif
+
+/* ---- types ---- */
+
+#ifdef LOBE_VEC3
+typedef LOBE_VEC3 lobe_vec3;
+#else
+typedef struct lobe_vec3 {
+    float x, y, z;
+} lobe_vec3;
+#endif
+
+typedef struct sg_lobe {
+    lobe_vec3 axis;
+    float sharpness;
+    float log_amplitude; /* natural logarithm of the peak value */
+} sg_lobe;
+
+enum { VSGL_DIFFUSE = 0, VSGL_SPECULAR = 1 };
+
+/* Power-weighted sums over virtual point lights; 16 floats, all linear, so they may be added, scaled and mipmapped.
+   The weight of a component is the mean of its power's three channels. */
+typedef struct vsgl_moments {
+    lobe_vec3 power[2];     /* reflected power Phi R, diffuse and specular */
+    lobe_vec3 direction[2]; /* weight times mean emission direction, diffuse and specular */
+    lobe_vec3 position;     /* both weights times position relative to an origin */
+    float position_squared; /* both weights times squared distance from that origin */
+} vsgl_moments;
+
+/* A virtual spherical Gaussian light. Radiant intensity of a component: intensity[k] * sg_eval(emission[k], w). */
+typedef struct vsgl {
+    lobe_vec3 position;     /* mean */
+    float variance;         /* of the position, length squared */
+    sg_lobe emission[2];    /* peak 1, diffuse and specular */
+    lobe_vec3 intensity[2]; /* peak radiant intensity, the paper's c_v */
+} vsgl;
+
+/* ---- small numerics ---- */
+
+#define LOBE_PI 3.14159265f
+#define LOBE_LOG2E 1.44269504f
+#define LOBE_TINY 1e-30f /* keeps quotients finite */
+#define LOBE_HUGE 1e30f
+
+LOBE_API float lobe_min(float a, float b) {
+    return a < b ? a : b;
+}
+
+LOBE_API float lobe_max(float a, float b) {
+    return a > b ? a : b;
+}
+
+LOBE_API lobe_vec3 lobe_vector(float x, float y, float z) {
+    lobe_vec3 v;
+    v.x = x;
+    v.y = y;
+    v.z = z;
+    return v;
+}
+
+LOBE_API lobe_vec3 lobe_add(lobe_vec3 a, lobe_vec3 b) {
+    return lobe_vector(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+
+LOBE_API lobe_vec3 lobe_sub(lobe_vec3 a, lobe_vec3 b) {
+    return lobe_vector(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+LOBE_API lobe_vec3 lobe_scale(lobe_vec3 a, float s) {
+    return lobe_vector(a.x * s, a.y * s, a.z * s);
+}
+
+LOBE_API float lobe_dot(lobe_vec3 a, lobe_vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+LOBE_API lobe_vec3 lobe_cross(lobe_vec3 a, lobe_vec3 b) {
+    return lobe_vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+/* v / |v|; the fallback where v is too short to have a direction. */
+LOBE_API lobe_vec3 lobe_normalize_or(lobe_vec3 v, lobe_vec3 fallback) {
+    float size = lobe_max(lobe_max(fabsf(v.x), fabsf(v.y)), fabsf(v.z));
+    lobe_vec3 u = lobe_scale(v, 1 / lobe_max(size, LOBE_TINY)); /* v.v may overflow or vanish, u.u does not */
+    return size > LOBE_TINY ? lobe_scale(u, 1 / sqrtf(lobe_dot(u, u))) : fallback;
+}
+
+/* The mean of three channels: the scalar weight of a colour. */
+LOBE_API float lobe_mean(lobe_vec3 colour) {
+    return (colour.x + colour.y + colour.z) * 0.333333333f;
+}
+
+/* (2^r - 1) / r for |r| <= 1/2, to 2^-25 */
+LOBE_API float lobe_exp2_slope(float r) {
+    float r2 = r * r;
+    return (0.693147182f + 0.240226477f * r) +
+           r2 * ((0.0555035956f + 0.00961850304f * r) + r2 * (0.00133909856f + 0.000153275338f * r));
+}
+
+/* Splits x = k + r with |r| <= 1/2; returns r and sets 2^k. Saturates below -127 (to 0) and above 127.4. Integer
+   minima of the bits do that, since gcc does not vectorise float comparisons before a conversion to int. */
+LOBE_API float lobe_exp2_split(float x, float *power) {
+    unsigned u;
+    int s, k;
+    memcpy(&s, &x, sizeof s);
+    s = s < 0x42FECCCD ? s : 0x42FECCCD; /* 127.4 */
+    memcpy(&u, &s, sizeof u);
+    u = u < 0xC2FE0000u ? u : 0xC2FE0000u; /* -127 */
+    memcpy(&x, &u, sizeof x);
+    k = (int)(x + 127.5f); /* k + 127, never negative */
+    u = (unsigned)k << 23;
+    memcpy(power, &u, sizeof *power);
+    return x - (float)(k - 127);
+}
+
+/* 2^x to 1 ulp; 0 below -126.5, 2^127.4 above 127.4. */
+LOBE_API float lobe_exp2(float x) {
+    float power, r = lobe_exp2_split(x, &power);
+    return power * (1 + r * lobe_exp2_slope(r));
+}
+
+LOBE_API float lobe_exp(float x) {
+    return lobe_exp2(LOBE_LOG2E * x);
+}
+
+/* (1 - e^-x) / x for x >= 0 to 2.3e-7: 1 at 0, 0 at infinity. */
+LOBE_API float lobe_phi(float x) {
+    float power, r, positive = lobe_max(x, 8.67361738e-19f); /* 2^-60 */
+    r = lobe_exp2_split(-LOBE_LOG2E * positive, &power);
+    return ((1 - power) - power * r * lobe_exp2_slope(r)) / positive;
+}
+
+/* |a - b|^2 of unit vectors, insensitive to errors in their lengths: the part of a - b along a + b is removed. */
+LOBE_API float lobe_chord_squared(lobe_vec3 a, lobe_vec3 b) {
+    lobe_vec3 d = lobe_sub(a, b), s = lobe_add(a, b), e;
+    e = lobe_sub(d, lobe_scale(s, 0.25f * lobe_dot(d, s)));
+    return lobe_dot(e, e);
+}
+
+/* ---- evaluate and integrate ---- */
+
+/*
+ sg_eval - value of an SG in a direction
+
+   g, dir     sharpness [0, 1e30]
+   returns    exp(log_amplitude + sharpness (dot(dir, axis) - 1)); 0 below 2^-126, saturates at 2^127.4
+
+   Rounding: <= 8 (1 + |ln g|) 2^-24   [bound sg_eval conditioned 8 over 1e-8 1e10]
+   Model:    exact
+   Source:   000, section 2, as -sharpness |dir - axis|^2 / 2, which does not cancel near the axis
+*/
+LOBE_API float sg_eval(sg_lobe g, lobe_vec3 dir) {
+    LOBE_ASSERT(g.sharpness >= 0);
+    return lobe_exp(g.log_amplitude - 0.5f * g.sharpness * lobe_chord_squared(g.axis, dir));
+}
+
+/*
+ sg_integral - integral of a unit-amplitude SG over the sphere
+
+   sharpness  [0, 1e30]
+   returns    (0, 4 pi]; 4 pi at 0, 0 at infinity
+
+   Rounding: <= 3e-7 relative   [bound sg_integral rel 3e-7 over 1e-30 1e30]
+   Model:    exact
+   Source:   000, section 2: 2 pi (1 - exp(-2 sharpness)) / sharpness
+*/
+LOBE_API float sg_integral(float sharpness) {
+    LOBE_ASSERT(sharpness >= 0);
+    return 4 * LOBE_PI * lobe_phi(2 * sharpness);
+}
+
+/*
+ sg_normalize - the SG with the same axis and sharpness whose integral is 1 (von Mises-Fisher)
+
+   g          sharpness [0, 1e30]; its amplitude does not matter
+   returns    g with log_amplitude = -ln(sg_integral(sharpness))
+
+   Rounding: integral within 8e-7 of 1 for sharpness up to 1e10   [bound sg_normalize rel 8e-7 over 1e-8 1e10]
+   Model:    exact
+   Source:   000, section 2
+*/
+LOBE_API sg_lobe sg_normalize(sg_lobe g) {
+    g.log_amplitude = -logf(sg_integral(g.sharpness));
+    return g;
+}
+
+/* Where two SGs multiply: total sharpness, sharpness of the product, and log of what the misalignment costs (<= 0).
+   |la a + lb b| and |la a + lb b| - la - lb without cancellation. */
+LOBE_API float lobe_product_sharpness(sg_lobe a, sg_lobe b, float *log_loss) {
+    float sum = a.sharpness + b.sharpness, inverse = 1 / lobe_max(sum, LOBE_TINY);
+    float chord2 = lobe_chord_squared(a.axis, b.axis);
+    float share = (a.sharpness * inverse) * (b.sharpness * inverse);
+    float sharpness = sum * sqrtf(lobe_max(1 - share * chord2, 0));
+    *log_loss = -(a.sharpness * chord2) * (b.sharpness / lobe_max(sharpness + sum, LOBE_TINY));
+    return sharpness;
+}
+
+/*
+ sg_product - the product of two SGs, which is an SG
+
+   a, b       sharpness [0, 1e30]
+   returns    a lobe with sg_eval(result, w) = sg_eval(a, w) sg_eval(b, w); for opposed axes of equal sharpness the
+              result has sharpness 0 and the axis of a
+
+   Rounding: values <= 16 (1 + |ln g|) 2^-24 near the product's axis   [bound sg_product conditioned 16 over 1e-8 1e10]
+   Model:    exact
+   Source:   001, Eq. 1
+*/
+LOBE_API sg_lobe sg_product(sg_lobe a, sg_lobe b) {
+    sg_lobe g;
+    float log_loss, inverse = 1 / lobe_max(a.sharpness + b.sharpness, LOBE_TINY);
+    LOBE_ASSERT(a.sharpness >= 0 && b.sharpness >= 0);
+    g.sharpness = lobe_product_sharpness(a, b, &log_loss);
+    g.log_amplitude = a.log_amplitude + b.log_amplitude + log_loss;
+    g.axis = lobe_normalize_or(
+        lobe_add(lobe_scale(a.axis, a.sharpness * inverse), lobe_scale(b.axis, b.sharpness * inverse)), a.axis);
+    return g;
+}
+
+/*
+ sg_product_integral - integral of the product of two SGs over the sphere
+
+   a, b       sharpness [0, 1e30]
+   returns    [0, 4 pi] times both amplitudes; 4 pi when both sharpnesses are 0
+
+   Rounding: <= 8 (1 + |ln g|) 2^-24, g the value over that of aligned axes
+             [bound sg_product_integral conditioned 8 over 1e-8 1e10]
+   Model:    exact
+   Source:   Tsai and Shih 2006; 000, section 2 with 001, Eq. 1
+*/
+LOBE_API float sg_product_integral(sg_lobe a, sg_lobe b) {
+    float log_loss, sharpness;
+    LOBE_ASSERT(a.sharpness >= 0 && b.sharpness >= 0);
+    sharpness = lobe_product_sharpness(a, b, &log_loss);
+    return lobe_exp(a.log_amplitude + b.log_amplitude + log_loss) * sg_integral(sharpness);
+}
+
+/*
+ sg_product_integral_approx - Iwasaki's form of the same integral, without a square root
+
+   a, b       sharpness [0, 1e30], their sum at least about 10 for the model to hold
+   returns    [0, 2 pi / (sum of sharpness)] times both amplitudes; saturates at 2 pi 1e30 for sum 0
+
+   Rounding: <= 8 (1 + |ln g|) 2^-24, g the value over that of aligned axes
+             [bound sg_product_integral_approx conditioned 8 over 1e-8 1e10]
+   Model:    relative error below exp(-2 sum) for aligned axes; it grows with the angle between sharp and wide lobes,
+             where the value is small: within .02 of the aligned value when both sharpnesses are at least 4
+             [bound sg_product_integral_approx model 0.02 over 4 1e5]
+   Source:   Iwasaki, Dobashi and Nishita 2012; 004, section 4.1
+*/
+LOBE_API float sg_product_integral_approx(sg_lobe a, sg_lobe b) {
+    float inverse = 1 / lobe_max(a.sharpness + b.sharpness, LOBE_TINY);
+    float chord2 = lobe_chord_squared(a.axis, b.axis);
+    LOBE_ASSERT(a.sharpness >= 0 && b.sharpness >= 0);
+    return 2 * LOBE_PI * inverse *
+           lobe_exp(a.log_amplitude + b.log_amplitude - 0.5f * chord2 * (a.sharpness * (b.sharpness * inverse)));
+}
+
+/*
+ sg_convolve - an SG blurred by a normalised SG kernel
+
+   g          sharpness [0, 1e30]
+   kappa      sharpness of the kernel, (0, infinity]; infinity leaves g as it is
+   returns    the same axis, sharpness / (1 + sharpness / kappa), the amplitude scaled by the same factor
+
+   Rounding: <= 2e-7 relative in sharpness   [bound sg_convolve rel 2e-7 over 1e-8 1e10]
+   Model:    Iwasaki's product integral; the flat-space integral is kept exactly
+   Source:   004, Eq. 10 times kappa / (2 pi)
+*/
+LOBE_API sg_lobe sg_convolve(sg_lobe g, float kappa) {
+    float ratio = lobe_min(g.sharpness / lobe_max(kappa, LOBE_TINY), LOBE_HUGE);
+    LOBE_ASSERT(g.sharpness >= 0 && kappa > 0);
+    g.sharpness = g.sharpness / (1 + ratio);
+    g.log_amplitude -= logf(1 + ratio);
+    return g;
+}
+
+/*
+ sg_cosine_integral - integral of an SG times max(dot(w, normal), 0) over the sphere
+
+   g          sharpness [0, 1e30]
+   returns    (0, pi] times the amplitude; pi at sharpness 0
+
+   Rounding: below the model's
+   Model:    over sg_integral, within 4.5e-4 absolute   [bound sg_cosine_integral abs 4.5e-4 over 1e-3 1e6]
+   Source:   fitted for this library: f(c) - f(-c) = c (coth l - 1/l) holds exactly for the normalised integral f, so
+             only the tail f(-|c|) is fitted, in a form that stays positive
+*/
+LOBE_API float sg_cosine_integral(sg_lobe g, lobe_vec3 normal) {
+    float c = lobe_max(lobe_min(lobe_dot(g.axis, normal), 1), -1);
+    float l = lobe_min(g.sharpness, 1e18f), al = fabsf(c) * l;
+    float lk = sqrtf(l * l + 4), z = sqrtf((l - al) * (l + al) + 4);
+    float u = 3 / (3 + l), v = sqrtf(u), y = al * v, q = al * (al / ((z + lk) * lk));
+    float exponent = q * (lk - 0.4376973f - 0.08004827f * u) +
+                     y * ((0.7025054f + u * (0.3865652f - 0.4270251f * u)) +
+                          y * ((-0.05964701f - 0.05367299f * u) + 0.00268569f * y));
+    float denominator = 1 + u * (-2.62787865f + u * (3.46178743f + u * (-1.98509711f + u * 0.936508642f)));
+    float peak = v * (0.230304177f + u * (-0.517313575f + u * (0.593470966f + u * (-0.194214744f + u * 0.084104355f))));
+    float mean = (1 - u) * (1 + u * (-1.95684843f + u * (1.97401732f - u * 0.231920424f)));
+    LOBE_ASSERT(g.sharpness >= 0);
+    return lobe_exp(g.log_amplitude) * sg_integral(g.sharpness) *
+           (peak * lobe_exp(-exponent) + mean * lobe_max(c, 0)) / denominator;
+}
+
+/*
+ sg_mean_length - length of the mean direction of a normalised SG, after Toksvig
+
+   sharpness  [0, 1e30]
+   returns    sharpness / (sharpness + 1), in [0, 1]
+
+   Rounding: <= 2 ulp   [bound sg_mean_length ulp 2 over 1e-30 1e30]
+   Model:    against the exact coth(l) - 1/l: at most .18 too large, at sharpness near 1; below 1 / l^2 above 10
+             [bound sg_mean_length model 0.18 over 1e-4 1e4]
+   Source:   Toksvig 2005; 000, section 3.1
+*/
+LOBE_API float sg_mean_length(float sharpness) {
+    LOBE_ASSERT(sharpness >= 0);
+    return sharpness / (sharpness + 1);
+}
+
+/*
+ sg_sharpness_from_mean_length - the sharpness whose Toksvig mean length is given
+
+   mean_length  [0, 1]; clamped to it
+   returns      mean_length / (1 - mean_length), saturating at 2^25: a float this near 1 tells no more
+
+   Rounding: <= 2 ulp of the given length's own value   [bound sg_sharpness_from_mean_length ulp 2 over 1e-30 1]
+   Model:    exact inverse of sg_mean_length; a round trip loses sharpness * 2^-24 relative
+   Source:   Toksvig 2005; 000, section 3.1
+*/
+LOBE_API float sg_sharpness_from_mean_length(float mean_length) {
+    float clamped = lobe_max(lobe_min(mean_length, 1), 0);
+    LOBE_ASSERT(mean_length >= 0 && mean_length <= 1.001f);
+    return clamped / lobe_max(1 - clamped, 2.98023224e-8f); /* 2^-25 */
+}
+
+/* ---- reflection lobes ---- */
+
+/*
+ sg_diffuse_lobe - the Lambert reflection lobe as a normalised SG of sharpness 2
+
+   returns    the lobe whose value times the albedo stands for BRDF times cosine; its integral is 1
+
+   Rounding: integral within 3e-7 of 1   [bound sg_diffuse_lobe rel 3e-7]
+   Model:    against max(cos, 0) / pi: within .053   [bound sg_diffuse_lobe model 0.053]
+   Source:   000, Eq. 1
+*/
+LOBE_API sg_lobe sg_diffuse_lobe(lobe_vec3 normal) {
+    sg_lobe g;
+    g.axis = normal;
+    g.sharpness = 2;
+    g.log_amplitude = -1.12624478f; /* -ln(pi (1 - e^-4)) */
+    return g;
+}
+
+/*
+ sg_reflection_lobe - reflection lobe of a microfacet BRDF from the SG of its normal distribution
+
+   normal, wi      wi may lie below the horizon; dot(wi, normal) is taken as at least 1e-4 in size
+   half_sharpness  sharpness of the NDF as an SG of the half vector: 2 / alpha^2, or a Phong exponent
+   returns         peak 1, around the mirror direction, sharpness half_sharpness / (4 |dot(mirror, normal)|)
+
+   Rounding: sharpness <= 4 ulp of its formula   [bound sg_reflection_lobe ulp 4]
+   Model:    first-order warp of half vectors: the anisotropy at grazing angles is lost, see asg_ggx_lobe
+   Source:   Wang et al. 2009; 000, section 2.1
+*/
+LOBE_API sg_lobe sg_reflection_lobe(lobe_vec3 normal, lobe_vec3 wi, float half_sharpness) {
+    sg_lobe g;
+    float cos_theta = lobe_dot(wi, normal);
+    LOBE_ASSERT(half_sharpness >= 0);
+    g.axis = lobe_normalize_or(lobe_sub(lobe_scale(normal, 2 * cos_theta), wi), normal);
+    g.sharpness = lobe_min(half_sharpness / (4 * lobe_max(fabsf(cos_theta), 1e-4f)), LOBE_HUGE);
+    g.log_amplitude = 0;
+    return g;
+}
+
+/* sg_ggx_lobe, sg_beckmann_lobe, sg_phong_lobe - sg_reflection_lobe for alpha in [1e-4, 1] (clamped below) and for a
+   Blinn-Phong exponent [0, 1e9]; the errors are its. GGX has heavier tails than any SG. */
+LOBE_API sg_lobe sg_ggx_lobe(lobe_vec3 normal, lobe_vec3 wi, float alpha) {
+    float clamped = lobe_max(alpha, 1e-4f);
+    return sg_reflection_lobe(normal, wi, 2 / (clamped * clamped));
+}
+
+LOBE_API sg_lobe sg_beckmann_lobe(lobe_vec3 normal, lobe_vec3 wi, float alpha) {
+    return sg_ggx_lobe(normal, wi, alpha); /* the same curvature at the peak */
+}
+
+LOBE_API sg_lobe sg_phong_lobe(lobe_vec3 normal, lobe_vec3 wi, float exponent) {
+    return sg_reflection_lobe(normal, wi, exponent);
+}
+
+/* ---- virtual spherical Gaussian lights ---- */
+
+/*
+ vsgl_moments_from_vpl - the sums of one virtual point light
+
+   offset     position relative to an origin near the cluster (for a scene far from 0: the scene's centre)
+   normal     of the lit surface; wi towards the light that lit it
+   diffuse    reflected power of the diffuse component, Phi R_d
+   specular   reflected power of the specular component, Phi R_s
+   alpha      GGX roughness of the specular component
+
+   Rounding: <= 4 ulp per entry
+   Model:    000, section 3.1: normalised SG lobes, Toksvig's mean length
+   Source:   000, sections 3.1 to 3.3
+*/
+LOBE_API vsgl_moments vsgl_moments_from_vpl(lobe_vec3 offset, lobe_vec3 normal, lobe_vec3 wi, lobe_vec3 diffuse,
+                                            lobe_vec3 specular, float alpha) {
+    vsgl_moments m;
+    float wd = lobe_mean(diffuse), ws = lobe_mean(specular);
+    sg_lobe lobe = sg_ggx_lobe(normal, wi, alpha);
+    m.power[VSGL_DIFFUSE] = diffuse;
+    m.power[VSGL_SPECULAR] = specular;
+    m.direction[VSGL_DIFFUSE] = lobe_scale(normal, wd * sg_mean_length(2));
+    m.direction[VSGL_SPECULAR] = lobe_scale(lobe.axis, ws * sg_mean_length(lobe.sharpness));
+    m.position = lobe_scale(offset, wd + ws);
+    m.position_squared = lobe_dot(offset, offset) * (wd + ws);
+    return m;
+}
+
+/* vsgl_moments_add, vsgl_moments_scale - entry by entry; one rounding each. */
+LOBE_API vsgl_moments vsgl_moments_add(vsgl_moments a, vsgl_moments b) {
+    int k;
+    for (k = 0; k < 2; k++) {
+        a.power[k] = lobe_add(a.power[k], b.power[k]);
+        a.direction[k] = lobe_add(a.direction[k], b.direction[k]);
+    }
+    a.position = lobe_add(a.position, b.position);
+    a.position_squared += b.position_squared;
+    return a;
+}
+
+LOBE_API vsgl_moments vsgl_moments_scale(vsgl_moments m, float s) {
+    int k;
+    for (k = 0; k < 2; k++) {
+        m.power[k] = lobe_scale(m.power[k], s);
+        m.direction[k] = lobe_scale(m.direction[k], s);
+    }
+    m.position = lobe_scale(m.position, s);
+    m.position_squared *= s;
+    return m;
+}
+
+/*
+ vsgl_from_moments - the virtual SG light of a cluster
+
+   m          sums over the cluster; a component without power gets intensity 0
+   origin     the origin that the positions were summed from
+   returns    mean position, variance >= 0, a lobe of peak 1 and the peak intensity for each component
+
+   Rounding: the variance loses |mean - origin|^2 2^-22 absolute: keep the origin near; the sharpness loses
+             sharpness * 2^-22 relative and saturates at 2^25   [bound vsgl_from_moments variance 0x1p-22]
+   Model:    000: one SG for each component, one isotropic Gaussian for the positions
+   Source:   000, sections 3.1 and 3.2
+*/
+LOBE_API vsgl vsgl_from_moments(vsgl_moments m, lobe_vec3 origin) {
+    vsgl v;
+    int k;
+    float weight = lobe_mean(m.power[0]) + lobe_mean(m.power[1]), inverse = 1 / lobe_max(weight, LOBE_TINY);
+    lobe_vec3 mean = lobe_scale(m.position, inverse);
+    v.position = lobe_add(origin, mean);
+    v.variance = lobe_max(m.position_squared * inverse - lobe_dot(mean, mean), 0);
+    for (k = 0; k < 2; k++) {
+        lobe_vec3 direction = lobe_scale(m.direction[k], 1 / lobe_max(lobe_mean(m.power[k]), LOBE_TINY));
+        float mean_length = lobe_min(sqrtf(lobe_dot(direction, direction)), 1);
+        v.emission[k].axis = lobe_normalize_or(direction, lobe_vector(0, 0, 1));
+        v.emission[k].sharpness = sg_sharpness_from_mean_length(mean_length);
+        v.emission[k].log_amplitude = 0;
+        v.intensity[k] = lobe_scale(m.power[k], 1 / sg_integral(v.emission[k].sharpness));
+    }
+    return v;
+}
+
+/* The incoming lobe but for its factor inverse_variance / (2 pi), so that a variance of 0 is the point light. */
+LOBE_API sg_lobe lobe_vsgl_incoming(vsgl v, int component, lobe_vec3 point, float *inverse_variance) {
+    sg_lobe extent, emission = v.emission[component];
+    lobe_vec3 offset = lobe_sub(v.position, point);
+    *inverse_variance = 1 / lobe_max(v.variance, 1e-20f);
+    emission.axis = lobe_scale(emission.axis, -1);
+    extent.axis = lobe_normalize_or(offset, emission.axis);
+    extent.sharpness = lobe_dot(offset, offset) * *inverse_variance;
+    extent.log_amplitude = 0;
+    return sg_product(extent, emission);
+}
+
+/*
+ vsgl_incoming_lobe - radiance that arrives at a point from one component of a virtual SG light
+
+   component  VSGL_DIFFUSE or VSGL_SPECULAR
+   point      at most 1e5 from the light; at the light itself the lobe points along the emission
+   returns    the lobe that, times v.intensity[component], is the incoming radiance; visibility is the caller's
+
+   Rounding: <= 64 (1 + |ln g|) 2^-24 in the integral, for the light's own numbers
+             [bound vsgl_incoming_lobe conditioned 64]
+   Model:    000, section 4.1: positions projected onto the sphere around the point
+   Source:   000, Eq. 7
+*/
+LOBE_API sg_lobe vsgl_incoming_lobe(vsgl v, int component, lobe_vec3 point) {
+    float inverse_variance;
+    sg_lobe g = lobe_vsgl_incoming(v, component, point, &inverse_variance);
+    g.log_amplitude += logf(inverse_variance * (0.5f / LOBE_PI));
+    return g;
+}
+
+/*
+ vsgl_diffuse - light of one component of a virtual SG light reflected by a Lambert surface
+
+   returns    reflected radiance per unit of v.intensity[component] and albedo
+
+   Rounding: as vsgl_incoming_lobe; a variance of 0 gives the point light to 2e-6   [bound vsgl_diffuse rel 2e-6]
+   Model:    the cosine is constant over the incoming lobe: right for small or far lights, up to 3 times too dark
+             (below the horizon) or bright for a light wide as the hemisphere; sg_cosine_integral does not have this error
+   Source:   000, section 4.2
+*/
+LOBE_API float vsgl_diffuse(vsgl v, int component, lobe_vec3 point, lobe_vec3 normal) {
+    float inverse_variance;
+    sg_lobe g = lobe_vsgl_incoming(v, component, point, &inverse_variance);
+    return 2 / LOBE_PI * lobe_exp(g.log_amplitude) * inverse_variance * lobe_phi(2 * g.sharpness) *
+           lobe_max(lobe_dot(g.axis, normal), 0);
+}
+
+#endif
+/*
+ Lobe is in the public domain (Unlicense, unlicense.org), or MIT licensed, as you like: see LICENSE.
+*/

@@ -1,0 +1,55 @@
+/*
+ test.h - the unit tests' harness
+
+ A test is a function that makes checks. It fails when any of its checks does. A failed check prints its
+ input as %a, what it got, what it wanted and the error in the bound's unit.
+
+ Bounds are read from the header under test, so that a comment and its assertion cannot disagree:
+
+   [bound sg_integral ulp 3 over 0x1p-126 0x1p100]       limit 3, low 0x1p-126, high 0x1p100
+   [bound sg_eval conditioned 8]                         low and high 0
+*/
+#ifndef TEST_H
+#define TEST_H
+
+typedef struct {
+    const char *name;
+    void (*run)(void);
+} test_case;
+
+typedef struct {
+    char label[96];         /* "sg_integral ulp" */
+    double limit, low, high;
+    double worst;           /* largest error seen, in the bound's unit */
+} test_bound;
+
+/* The tag of one function and kind in a header; a missing tag fails the test and gives a limit of 0. */
+test_bound test_bound_of(const char *header, const char *function, const char *kind);
+
+/* Fails when |got - wanted| > limit * unit, or when got is not finite. The inputs are printed on failure. */
+void test_within(test_bound *bound, double got, double wanted, double unit, const double *inputs, int count);
+
+/* A plain check: condition, what it says, and the inputs to print when it does not hold. */
+void test_that(int condition, const char *what, const double *inputs, int count);
+
+/* Prints the largest error seen beside the bound (with --verbose) */
+void test_report(const test_bound *bound);
+
+/* The units: spacing of floats at a value, and 2^-24. */
+double test_ulp(double value);
+#define TEST_EPSILON 0x1p-24
+
+/* Fixed-seed generator: uniform in [0, 1), log-uniform in [low, high], uniform direction. */
+typedef struct {
+    unsigned long long state;
+} test_rng;
+double test_uniform(test_rng *rng);
+double test_log_uniform(test_rng *rng, double low, double high);
+void test_direction(test_rng *rng, double direction[3]);
+
+/* One table per header, closed by a null name. */
+extern const test_case sg_tests[];
+extern const test_case asg_tests[];
+extern const test_case fis_tests[];
+
+#endif
