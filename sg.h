@@ -158,25 +158,26 @@ LOBE_API float lobe_exp2_slope(float r) {
            r2 * ((0.0555035956f + 0.00961850304f * r) + r2 * (0.00133909856f + 0.000153275338f * r));
 }
 
-/* Splits x = k + r with |r| <= 1/2; returns r and sets 2^k. Saturates below -127 (to 0) and above 127.4. Integer
-   minima of the bits do that, since gcc does not vectorise float comparisons before a conversion to int. */
-LOBE_API float lobe_exp2_split(float x, float *power) {
+/* Splits x = k + r with integer k and |r| <= 1/2; returns r, sets k and 2^k. Saturates below -127 (to 0) and above
+   127.4. Integer minima of the bits do that, since gcc does not vectorise float comparisons before a conversion. */
+LOBE_API float lobe_exp2_split(float x, float *whole, float *power) {
     unsigned u;
-    int s, k;
+    int s;
     memcpy(&s, &x, sizeof s);
     s = s < 0x42FECCCD ? s : 0x42FECCCD; /* 127.4 */
     memcpy(&u, &s, sizeof u);
     u = u < 0xC2FE0000u ? u : 0xC2FE0000u; /* -127 */
     memcpy(&x, &u, sizeof x);
-    k = (int)(x + 127.5f); /* k + 127, never negative */
-    u = (unsigned)k << 23;
+    s = (int)(x + 127.5f); /* k + 127, never negative */
+    u = (unsigned)s << 23;
     memcpy(power, &u, sizeof *power);
-    return x - (float)(k - 127);
+    *whole = (float)(s - 127);
+    return x - *whole;
 }
 
-/* 2^x to 1 ulp; 0 below -126.5, 2^127.4 above 127.4. */
+/* 2^x to 1.1e-7 relative; 0 below -126.5, 2^127.4 above 127.4. */
 LOBE_API float lobe_exp2(float x) {
-    float power, r = lobe_exp2_split(x, &power);
+    float whole, power, r = lobe_exp2_split(x, &whole, &power);
     return power * (1 + r * lobe_exp2_slope(r));
 }
 
@@ -184,11 +185,13 @@ LOBE_API float lobe_exp(float x) {
     return lobe_exp2(LOBE_LOG2E * x);
 }
 
-/* (1 - e^-x) / x for x >= 0 to 2.3e-7: 1 at 0, 0 at infinity. */
+/* (1 - e^-x) / x for x >= 0 to 2.5e-7: 1 at 0, 0 at infinity. With -x log2(e) = k + r, all terms are positive, and the
+   last is exactly 0 for k = 0, in whatever order they are added. */
 LOBE_API float lobe_phi(float x) {
-    float power, r, positive = lobe_max(x, 8.67361738e-19f); /* 2^-60 */
-    r = lobe_exp2_split(-LOBE_LOG2E * positive, &power);
-    return ((1 - power) - power * r * lobe_exp2_slope(r)) / positive;
+    float whole, power, r, slope;
+    r = lobe_exp2_split(-LOBE_LOG2E * x, &whole, &power);
+    slope = lobe_exp2_slope(r);
+    return power * slope * LOBE_LOG2E + (1 - power * (1 - whole * slope)) / lobe_max(x, LOBE_TINY);
 }
 
 /* |a - b|^2 of unit vectors, insensitive to errors in their lengths: the part of a - b along a + b is removed. */
