@@ -17,12 +17,13 @@
    LOBE_ASSERT  | nothing       | called with each domain condition, e.g. assert
 
  Conventions: an SG is G(w) = exp(log_amplitude + sharpness (dot(w, axis) - 1)). Directions have unit length
- (to 1e-6) and point away from the surface; wi points towards the incoming light. alpha is GGX or Beckmann
+ (to 2e-7) and point away from the surface; wi points towards the incoming light. alpha is GGX or Beckmann
  roughness. Colour stays outside the lobe. Lengths are in any one unit; powers in watts or any one unit.
 
  Errors: "conditioned" is in (1 + |ln g|) 2^-24, g the exact value: what rounding of the inputs alone costs an
- exponential. "ulp" is the spacing of floats at the exact value. "rel" is relative. Bounds hold for the sharpness
- range given; sharpness up to 1e30 stays finite. Out of finite input comes no NaN and no infinity.
+ exponential; where ln g is a sum, |ln g| stands for the sum of its terms' sizes. "ulp" is the spacing of floats at the
+ exact value. "rel" is relative. Bounds hold for the sharpness range given; sharpness up to 1e30 stays finite. Out of
+ finite input comes no NaN, and no infinity while log amplitudes are at most 8, lengths 1e5 and powers 1e18.
 
  Functions:
 
@@ -139,11 +140,14 @@ LOBE_API lobe_vec3 lobe_cross(lobe_vec3 a, lobe_vec3 b) {
     return lobe_vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-/* v / |v|; the fallback where v is too short to have a direction. */
+/* v / |v|; the fallback where v is too short to have a direction. Chosen field by field, since clang does not vectorise a
+   choice of structs. */
 LOBE_API lobe_vec3 lobe_normalize_or(lobe_vec3 v, lobe_vec3 fallback) {
     float size = lobe_max(lobe_max(fabsf(v.x), fabsf(v.y)), fabsf(v.z));
-    lobe_vec3 u = lobe_scale(v, 1 / lobe_max(size, LOBE_TINY)); /* v.v may overflow or vanish, u.u does not */
-    return size > LOBE_TINY ? lobe_scale(u, 1 / sqrtf(lobe_dot(u, u))) : fallback;
+    float inverse = 1 / lobe_max(size, LOBE_TINY), x = v.x * inverse, y = v.y * inverse, z = v.z * inverse;
+    float scale = 1 / sqrtf(lobe_max(x * x + y * y + z * z, LOBE_TINY)); /* v.v may overflow or vanish, this does not */
+    return lobe_vector(size > LOBE_TINY ? x * scale : fallback.x, size > LOBE_TINY ? y * scale : fallback.y,
+                       size > LOBE_TINY ? z * scale : fallback.z);
 }
 
 /* The mean of three channels: the scalar weight of a colour. */
@@ -239,7 +243,7 @@ LOBE_API float sg_integral(float sharpness) {
    g          sharpness [0, 1e30]; its amplitude does not matter
    returns    g with log_amplitude = -ln(sg_integral(sharpness))
 
-   Rounding: integral within 8e-7 of 1 for sharpness up to 1e10   [bound sg_normalize rel 8e-7 over 1e-8 1e10]
+   Rounding: integral within 1.5e-6 of 1 for sharpness up to 1e10   [bound sg_normalize rel 1.5e-6 over 1e-8 1e10]
    Model:    exact
    Source:   000, section 2
 */
@@ -248,14 +252,21 @@ LOBE_API sg_lobe sg_normalize(sg_lobe g) {
     return g;
 }
 
-/* Where two SGs multiply: total sharpness, sharpness of the product, and log of what the misalignment costs (<= 0).
-   |la a + lb b| and |la a + lb b| - la - lb without cancellation. */
-LOBE_API float lobe_product_sharpness(sg_lobe a, sg_lobe b, float *log_loss) {
-    float sum = a.sharpness + b.sharpness, inverse = 1 / lobe_max(sum, LOBE_TINY);
+/* The weighted mean (la a + lb b) / (la + lb) of two axes: the axis of the product, unnormalised; exactly 0 for opposed
+   lobes of equal sharpness. */
+LOBE_API lobe_vec3 lobe_product_mean(sg_lobe a, sg_lobe b) {
+    float difference = (a.sharpness - b.sharpness) / lobe_max(a.sharpness + b.sharpness, LOBE_TINY);
+    return lobe_scale(
+        lobe_add(lobe_add(a.axis, b.axis), lobe_scale(lobe_sub(a.axis, b.axis), difference)), 0.5f);
+}
+
+/* Where two SGs multiply: sharpness of the product from its mean axis, and log of what the misalignment costs (<= 0),
+   which is |la a + lb b| - la - lb without cancellation. */
+LOBE_API float lobe_product_sharpness(sg_lobe a, sg_lobe b, lobe_vec3 mean, float *log_loss) {
+    float sum = a.sharpness + b.sharpness, sharpness = sum * sqrtf(lobe_dot(mean, mean));
     float chord2 = lobe_chord_squared(a.axis, b.axis);
-    float share = (a.sharpness * inverse) * (b.sharpness * inverse);
-    float sharpness = sum * sqrtf(lobe_max(1 - share * chord2, 0));
-    *log_loss = -(a.sharpness * chord2) * (b.sharpness / lobe_max(sharpness + sum, LOBE_TINY));
+    /* the minimum does nothing, but keeps -ffast-math from forming a.sharpness * b.sharpness, which may overflow */
+    *log_loss = -(a.sharpness * chord2) * lobe_min(b.sharpness / lobe_max(sharpness + sum, LOBE_TINY), 1);
     return sharpness;
 }
 
@@ -266,18 +277,19 @@ LOBE_API float lobe_product_sharpness(sg_lobe a, sg_lobe b, float *log_loss) {
    returns    a lobe with sg_eval(result, w) = sg_eval(a, w) sg_eval(b, w); for opposed axes of equal sharpness the
               result has sharpness 0 and the axis of a
 
-   Rounding: values <= 16 (1 + |ln g|) 2^-24 near the product's axis   [bound sg_product conditioned 16 over 1e-8 1e10]
+   Rounding: values <= 10 (1 + |ln g| + sharpness (2^-23 + angle to the axis)) 2^-24, the last term for the axis being
+             floats   [bound sg_product conditioned 10 over 1e-8 1e10]
    Model:    exact
    Source:   001, Eq. 1
 */
 LOBE_API sg_lobe sg_product(sg_lobe a, sg_lobe b) {
     sg_lobe g;
-    float log_loss, inverse = 1 / lobe_max(a.sharpness + b.sharpness, LOBE_TINY);
+    lobe_vec3 mean = lobe_product_mean(a, b);
+    float log_loss;
     LOBE_ASSERT(a.sharpness >= 0 && b.sharpness >= 0);
-    g.sharpness = lobe_product_sharpness(a, b, &log_loss);
+    g.sharpness = lobe_product_sharpness(a, b, mean, &log_loss);
     g.log_amplitude = a.log_amplitude + b.log_amplitude + log_loss;
-    g.axis = lobe_normalize_or(
-        lobe_add(lobe_scale(a.axis, a.sharpness * inverse), lobe_scale(b.axis, b.sharpness * inverse)), a.axis);
+    g.axis = lobe_normalize_or(mean, a.axis);
     return g;
 }
 
@@ -287,15 +299,15 @@ LOBE_API sg_lobe sg_product(sg_lobe a, sg_lobe b) {
    a, b       sharpness [0, 1e30]
    returns    [0, 4 pi] times both amplitudes; 4 pi when both sharpnesses are 0
 
-   Rounding: <= 8 (1 + |ln g|) 2^-24, g the value over that of aligned axes
-             [bound sg_product_integral conditioned 8 over 1e-8 1e10]
+   Rounding: <= 10 (1 + |ln g|) 2^-24, g the value over that of aligned axes
+             [bound sg_product_integral conditioned 10 over 1e-8 1e10]
    Model:    exact
    Source:   Tsai and Shih 2006; 000, section 2 with 001, Eq. 1
 */
 LOBE_API float sg_product_integral(sg_lobe a, sg_lobe b) {
     float log_loss, sharpness;
     LOBE_ASSERT(a.sharpness >= 0 && b.sharpness >= 0);
-    sharpness = lobe_product_sharpness(a, b, &log_loss);
+    sharpness = lobe_product_sharpness(a, b, lobe_product_mean(a, b), &log_loss);
     return lobe_exp(a.log_amplitude + b.log_amplitude + log_loss) * sg_integral(sharpness);
 }
 
@@ -305,11 +317,11 @@ LOBE_API float sg_product_integral(sg_lobe a, sg_lobe b) {
    a, b       sharpness [0, 1e30], their sum at least about 10 for the model to hold
    returns    [0, 2 pi / (sum of sharpness)] times both amplitudes; saturates at 2 pi 1e30 for sum 0
 
-   Rounding: <= 8 (1 + |ln g|) 2^-24, g the value over that of aligned axes
-             [bound sg_product_integral_approx conditioned 8 over 1e-8 1e10]
-   Model:    relative error below exp(-2 sum) for aligned axes; it grows with the angle between sharp and wide lobes,
-             where the value is small: within .02 of the aligned value when both sharpnesses are at least 4
-             [bound sg_product_integral_approx model 0.02 over 4 1e5]
+   Rounding: <= 10 (1 + |ln g|) 2^-24, g the value over that of aligned axes
+             [bound sg_product_integral_approx conditioned 10 over 1e-8 1e10]
+   Model:    relative error 1 / (exp(2 sum) - 1) for aligned axes; within .033 of the aligned value at any angle when
+             both sharpnesses are at least 4, the worst for equal ones
+             [bound sg_product_integral_approx model 0.033 over 4 1e5]
    Source:   Iwasaki, Dobashi and Nishita 2012; 004, section 4.1
 */
 LOBE_API float sg_product_integral_approx(sg_lobe a, sg_lobe b) {
@@ -343,7 +355,7 @@ LOBE_API sg_lobe sg_convolve(sg_lobe g, float kappa) {
  sg_cosine_integral - integral of an SG times max(dot(w, normal), 0) over the sphere
 
    g          sharpness [0, 1e30]
-   returns    (0, pi] times the amplitude; pi at sharpness 0
+   returns    [0, pi] times the amplitude, 0 only where it underflows; pi at sharpness 0; all within the model's error
 
    Rounding: below the model's
    Model:    over sg_integral, within 4.5e-4 absolute   [bound sg_cosine_integral abs 4.5e-4 over 1e-3 1e6]
@@ -373,8 +385,8 @@ LOBE_API float sg_cosine_integral(sg_lobe g, lobe_vec3 normal) {
    returns    sharpness / (sharpness + 1), in [0, 1]
 
    Rounding: <= 2 ulp   [bound sg_mean_length ulp 2 over 1e-30 1e30]
-   Model:    against the exact coth(l) - 1/l: at most .18 too large, at sharpness near 1; below 1 / l^2 above 10
-             [bound sg_mean_length model 0.18 over 1e-4 1e4]
+   Model:    against the exact coth(l) - 1/l: at most .19 too large, at sharpness near 1; below 1 / l^2 above 10
+             [bound sg_mean_length model 0.19 over 1e-4 1e4]
    Source:   Toksvig 2005; 000, section 3.1
 */
 LOBE_API float sg_mean_length(float sharpness) {
@@ -389,7 +401,7 @@ LOBE_API float sg_mean_length(float sharpness) {
    returns      mean_length / (1 - mean_length), saturating at 2^25: a float this near 1 tells no more
 
    Rounding: <= 2 ulp of the given length's own value   [bound sg_sharpness_from_mean_length ulp 2 over 1e-30 1]
-   Model:    exact inverse of sg_mean_length; a round trip loses sharpness * 2^-24 relative
+   Model:    exact inverse of sg_mean_length; a round trip loses (sharpness + 2) 2^-23 relative
    Source:   Toksvig 2005; 000, section 3.1
 */
 LOBE_API float sg_sharpness_from_mean_length(float mean_length) {
@@ -413,7 +425,7 @@ LOBE_API sg_lobe sg_diffuse_lobe(lobe_vec3 normal) {
     sg_lobe g;
     g.axis = normal;
     g.sharpness = 2;
-    g.log_amplitude = -1.12624478f; /* -ln(pi (1 - e^-4)) */
+    g.log_amplitude = -1.12624444f; /* -ln(pi (1 - e^-4)) */
     return g;
 }
 
@@ -424,7 +436,7 @@ LOBE_API sg_lobe sg_diffuse_lobe(lobe_vec3 normal) {
    half_sharpness  sharpness of the NDF as an SG of the half vector: 2 / alpha^2, or a Phong exponent
    returns         peak 1, around the mirror direction, sharpness half_sharpness / (4 |dot(mirror, normal)|)
 
-   Rounding: sharpness <= 4 ulp of its formula   [bound sg_reflection_lobe ulp 4]
+   Rounding: sharpness <= 8 / |dot(wi, normal)| ulp, as of a rounded wi   [bound sg_reflection_lobe ulp 8]
    Model:    first-order warp of half vectors: the anisotropy at grazing angles is lost, see asg_ggx_lobe
    Source:   Wang et al. 2009; 000, section 2.1
 */
@@ -464,7 +476,7 @@ LOBE_API sg_lobe sg_phong_lobe(lobe_vec3 normal, lobe_vec3 wi, float exponent) {
    specular   reflected power of the specular component, Phi R_s
    alpha      GGX roughness of the specular component
 
-   Rounding: <= 4 ulp per entry
+   Rounding: <= 4 ulp of each vector's length, of each scalar
    Model:    000, section 3.1: normalised SG lobes, Toksvig's mean length
    Source:   000, sections 3.1 to 3.3
 */
@@ -512,8 +524,8 @@ LOBE_API vsgl_moments vsgl_moments_scale(vsgl_moments m, float s) {
    origin     the origin that the positions were summed from
    returns    mean position, variance >= 0, a lobe of peak 1 and the peak intensity for each component
 
-   Rounding: the variance loses |mean - origin|^2 2^-22 absolute: keep the origin near; the sharpness loses
-             sharpness * 2^-22 relative and saturates at 2^25   [bound vsgl_from_moments variance 0x1p-22]
+   Rounding: the variance loses (|mean - origin|^2 + variance) 2^-21 absolute: keep the origin near; the sharpness
+             loses (sharpness + 4) 2^-21 relative and saturates at 2^25   [bound vsgl_from_moments variance 0x1p-21]
    Model:    000: one SG for each component, one isotropic Gaussian for the positions
    Source:   000, sections 3.1 and 3.2
 */
@@ -537,10 +549,15 @@ LOBE_API vsgl vsgl_from_moments(vsgl_moments m, lobe_vec3 origin) {
 
 /* The incoming lobe but for its factor inverse_variance / (2 pi), so that a variance of 0 is the point light. */
 LOBE_API sg_lobe lobe_vsgl_incoming(vsgl v, int component, lobe_vec3 point, float *inverse_variance) {
-    sg_lobe extent, emission = v.emission[component];
+    sg_lobe extent, emission;
     lobe_vec3 offset = lobe_sub(v.position, point);
     *inverse_variance = 1 / lobe_max(v.variance, 1e-20f);
-    emission.axis = lobe_scale(emission.axis, -1);
+    /* field by field: an index would go through memory and stop vectorisation */
+    emission.axis.x = -(component ? v.emission[1].axis.x : v.emission[0].axis.x);
+    emission.axis.y = -(component ? v.emission[1].axis.y : v.emission[0].axis.y);
+    emission.axis.z = -(component ? v.emission[1].axis.z : v.emission[0].axis.z);
+    emission.sharpness = component ? v.emission[1].sharpness : v.emission[0].sharpness;
+    emission.log_amplitude = 0;
     extent.axis = lobe_normalize_or(offset, emission.axis);
     extent.sharpness = lobe_dot(offset, offset) * *inverse_variance;
     extent.log_amplitude = 0;
@@ -554,8 +571,8 @@ LOBE_API sg_lobe lobe_vsgl_incoming(vsgl v, int component, lobe_vec3 point, floa
    point      at most 1e5 from the light; at the light itself the lobe points along the emission
    returns    the lobe that, times v.intensity[component], is the incoming radiance; visibility is the caller's
 
-   Rounding: <= 64 (1 + |ln g|) 2^-24 in the integral, for the light's own numbers
-             [bound vsgl_incoming_lobe conditioned 64]
+   Rounding: <= 64 (1 + |ln g| + angle * sharpness of the emission) 2^-24 in the integral, g the value over that on the
+             emission's axis, the last term for directions being floats   [bound vsgl_incoming_lobe conditioned 64]
    Model:    000, section 4.1: positions projected onto the sphere around the point
    Source:   000, Eq. 7
 */
@@ -571,16 +588,17 @@ LOBE_API sg_lobe vsgl_incoming_lobe(vsgl v, int component, lobe_vec3 point) {
 
    returns    reflected radiance per unit of v.intensity[component] and albedo
 
-   Rounding: as vsgl_incoming_lobe; a variance of 0 gives the point light to 2e-6   [bound vsgl_diffuse rel 2e-6]
-   Model:    the cosine is constant over the incoming lobe: right for small or far lights, up to 3 times too dark
-             (below the horizon) or bright for a light wide as the hemisphere; sg_cosine_integral does not have this error
+   Rounding: <= 16 units of vsgl_incoming_lobe times the value for cosine 1; a variance of 0 gives the point light
+             [bound vsgl_diffuse conditioned 16]
+   Model:    the cosine is constant over the incoming lobe: right for small or far lights, black for a lobe that points
+             below the horizon, up to 4 times too bright for a wide one; sg_cosine_integral does not have this error
    Source:   000, section 4.2
 */
 LOBE_API float vsgl_diffuse(vsgl v, int component, lobe_vec3 point, lobe_vec3 normal) {
-    float inverse_variance;
+    float inverse_variance, flux;
     sg_lobe g = lobe_vsgl_incoming(v, component, point, &inverse_variance);
-    return 2 / LOBE_PI * lobe_exp(g.log_amplitude) * inverse_variance * lobe_phi(2 * g.sharpness) *
-           lobe_max(lobe_dot(g.axis, normal), 0);
+    flux = lobe_min(inverse_variance * lobe_phi(2 * g.sharpness), LOBE_HUGE); /* or -ffast-math may underflow */
+    return 2 / LOBE_PI * lobe_exp(g.log_amplitude) * flux * lobe_max(lobe_dot(g.axis, normal), 0);
 }
 
 #endif

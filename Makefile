@@ -1,0 +1,68 @@
+# Lobe. `make help` lists the targets.
+
+BUILD = build
+OPTIMIZE = -O3 -fno-math-errno $(NATIVE)
+WARN = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion $(if $(WERROR),-Werror)
+CFLAGS = $(OPTIMIZE)
+ARGS =
+
+# What this compiler has: tuning for this machine, threads. Each is used only if a program links with it.
+has = $(shell mkdir -p $(BUILD) && echo 'int main(void) { return 0; }' > $(BUILD)/probe.c && \
+        $(CC) $(1) $(BUILD)/probe.c -o $(BUILD)/probe 2>/dev/null && echo '$(1)')
+ifeq ($(filter help clean,$(MAKECMDGOALS)),)
+NATIVE := $(call has,-march=native)
+OPENMP := $(call has,-fopenmp)
+endif
+COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS)
+
+HEADERS = sg.h asg.h fis.h
+COMMON = $(wildcard examples/common/*.c)
+TESTS = $(wildcard tests/*.c)
+
+run: $(BUILD)/vsgl
+	$(BUILD)/vsgl $(ARGS)
+
+test: $(BUILD)/tests headers readme
+	$(BUILD)/tests $(ARGS)
+
+help:
+	@echo 'make           builds and runs the main example: one-bounce glossy indirect light (ARGS="--help" for more)'
+	@echo 'make test      compiles each header alone and the snippet of the README, then runs the unit tests'
+	@echo 'make clean     deletes $(BUILD)/'
+	@echo 'make help      prints this'
+	@echo
+	@echo 'CC=clang, CFLAGS=..., BUILD=directory, WERROR=1 and ARGS=... may be added to each'
+
+clean:
+	rm -rf $(BUILD)
+
+$(BUILD)/vsgl: examples/vsgl.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
+	$(COMPILE) $(OPENMP) examples/vsgl.c $(COMMON) -o $@ -lm
+
+$(BUILD)/tests: $(TESTS) $(wildcard tests/*.h) $(HEADERS) $(BUILD)/flags
+	$(COMPILE) $(TESTS) -o $@ -lm
+
+# Each header alone, as C99 and, where the compiler knows it, as C++17.
+headers: $(BUILD)/flags
+	@for header in $(HEADERS); do \
+	    echo "#include \"$$header\"" > $(BUILD)/alone.c; \
+	    $(CC) -std=c99 $(WARN) -Werror -I. -fsyntax-only $(BUILD)/alone.c || exit 1; \
+	    echo "ok     $$header alone, C99"; \
+	    if echo '#include <math.h>' | $(CC) -x c++ -std=c++17 -fsyntax-only - 2>/dev/null; then \
+	        $(CC) -x c++ -std=c++17 $(WARN) -Werror -I. -fsyntax-only $(BUILD)/alone.c || exit 1; \
+	        echo "ok     $$header alone, C++17"; \
+	    else echo "skipped $$header as C++17: $(CC) has no C++ here"; fi; \
+	done
+
+# The README's first block of C, as printed.
+readme: $(BUILD)/flags
+	@awk '/^```/ { if (inside) exit; inside = /^```c$$/; next } inside' README.md > $(BUILD)/readme.c
+	@$(CC) -std=c99 $(WARN) -Werror -I. $(BUILD)/readme.c -o $(BUILD)/readme -lm
+	@$(BUILD)/readme > /dev/null && echo "ok     snippet of the README"
+
+# Changes when the compiler or its flags do, so that everything is built anew then.
+$(BUILD)/flags: force
+	@mkdir -p $(BUILD)
+	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
+
+.PHONY: run test help clean headers readme force

@@ -1,0 +1,89 @@
+#include "options.h"
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void usage(FILE *to, const options *o, const char *program, const char *about) {
+    int i;
+    fprintf(to, "usage: %s [options]\n%s\n\n", program, about);
+    fprintf(to, "  --size WxH       of each image in pixels, 16x16 to 4096x4096 (default %dx%d)\n", o->width, o->height);
+    fprintf(to, "  --lights N,...   numbers of lights to try, up to %d of them, 1 to 65536 (default ", OPTIONS_MAX_LIGHTS);
+    for (i = 0; i < o->light_counts; i++) fprintf(to, "%s%d", i ? "," : "", o->lights[i]);
+    fprintf(to, ")\n");
+    fprintf(to, "  --samples N      paths per pixel of the reference, 2 to 1000000 (default %d)\n", o->samples);
+    fprintf(to, "  --seed N         shifts every sample, 0 to 4294967295 (default %u)\n", o->seed);
+    fprintf(to, "  --out PREFIX     beginning of the images' names (default %s)\n", o->out);
+    fprintf(to, "  --help           prints this\n");
+}
+
+/* A whole number in [low, high] and the character after it; 0 if it is not one. */
+static int number(const char *text, unsigned long low, unsigned long high, unsigned long *value, const char **rest) {
+    char *end;
+    if (*text < '0' || *text > '9') return 0;
+    errno = 0;
+    *value = strtoul(text, &end, 10);
+    *rest = end;
+    return errno == 0 && *value >= low && *value <= high;
+}
+
+static int read_size(options *o, const char *text) {
+    unsigned long width, height;
+    if (!number(text, 16, 4096, &width, &text) || *text != 'x') return 0;
+    if (!number(text + 1, 16, 4096, &height, &text) || *text) return 0;
+    o->width = (int)width;
+    o->height = (int)height;
+    return 1;
+}
+
+static int read_lights(options *o, const char *text) {
+    unsigned long value;
+    o->light_counts = 0;
+    for (;; text++) {
+        if (o->light_counts == OPTIONS_MAX_LIGHTS || !number(text, 1, 65536, &value, &text)) return 0;
+        o->lights[o->light_counts++] = (int)value;
+        if (!*text) return 1;
+        if (*text != ',') return 0;
+    }
+}
+
+void options_read(options *o, int argc, char **argv, const char *about) {
+    const options defaults = *o;
+    int i;
+    for (i = 1; i < argc; i++) {
+        const char *name = argv[i], *value = i + 1 < argc ? argv[i + 1] : NULL, *rest;
+        unsigned long n = 0;
+        int right = 0;
+        if (!strcmp(name, "--help")) {
+            usage(stdout, &defaults, argv[0], about);
+            exit(0);
+        } else if (strcmp(name, "--size") && strcmp(name, "--lights") && strcmp(name, "--samples") &&
+                   strcmp(name, "--seed") && strcmp(name, "--out")) {
+            fprintf(stderr, "%s: unknown argument '%s'\n", argv[0], name);
+        } else if (!value) {
+            fprintf(stderr, "%s: %s needs a value\n", argv[0], name);
+        } else {
+            if (!strcmp(name, "--size")) {
+                right = read_size(o, value);
+            } else if (!strcmp(name, "--lights")) {
+                right = read_lights(o, value);
+            } else if (!strcmp(name, "--samples")) {
+                right = number(value, 2, 1000000, &n, &rest) && !*rest;
+                o->samples = (int)n;
+            } else if (!strcmp(name, "--seed")) {
+                right = number(value, 0, UINT_MAX, &n, &rest) && !*rest;
+                o->seed = (unsigned)n;
+            } else {
+                right = *value != 0;
+                o->out = value;
+            }
+            if (!right) fprintf(stderr, "%s: bad value '%s' of %s\n", argv[0], value, name);
+            i++;
+        }
+        if (!right) {
+            usage(stderr, &defaults, argv[0], about);
+            exit(2);
+        }
+    }
+}

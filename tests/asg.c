@@ -1,0 +1,1299 @@
+/* Unit tests of asg.h. References are nested Gauss-Legendre quadrature in double. */
+#include "../asg.h"
+#include "reference.h"
+#include "test.h"
+#include <float.h>
+#include <stddef.h>
+
+/* ---- vectors and lobes in double ---- */
+
+typedef struct {
+    double x[3], y[3], z[3], lx, ly, log_amplitude;
+} exact_asg;
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double c[3]) {
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static void normalize(double v[3]) {
+    double size = sqrt(dot(v, v));
+    int k;
+    for (k = 0; k < 3; k++) v[k] /= size;
+}
+
+static void widen(lobe_vec3 v, double out[3]) {
+    out[0] = (double)v.x;
+    out[1] = (double)v.y;
+    out[2] = (double)v.z;
+}
+
+static lobe_vec3 narrow(const double v[3]) {
+    return lobe_vector((float)v[0], (float)v[1], (float)v[2]);
+}
+
+/* The lobe that a float lobe stands for: its frame made orthonormal. */
+static exact_asg exact_of(asg_lobe a) {
+    exact_asg e;
+    double d;
+    int k;
+    widen(a.x, e.x);
+    widen(a.z, e.z);
+    normalize(e.z);
+    d = dot(e.x, e.z);
+    for (k = 0; k < 3; k++) e.x[k] -= d * e.z[k];
+    normalize(e.x);
+    cross(e.z, e.x, e.y);
+    e.lx = (double)a.sharpness_x;
+    e.ly = (double)a.sharpness_y;
+    e.log_amplitude = (double)a.log_amplitude;
+    return e;
+}
+
+static double exact_eval(const exact_asg *a, const double w[3]) {
+    double x = dot(w, a->x), y = dot(w, a->y);
+    return fmax(dot(w, a->z), 0) * exp(a->log_amplitude - a->lx * x * x - a->ly * y * y);
+}
+
+/* A lobe around a direction, its x axis turned by an angle. */
+static asg_lobe lobe_around(const double z[3], double turn, double lx, double ly) {
+    asg_lobe a;
+    double u[3], v[3], x[3], y[3];
+    int k;
+    reference_frame(z, u, v);
+    for (k = 0; k < 3; k++) {
+        x[k] = cos(turn) * u[k] + sin(turn) * v[k];
+        y[k] = cos(turn) * v[k] - sin(turn) * u[k];
+    }
+    a.x = narrow(x);
+    a.y = narrow(y);
+    a.z = narrow(z);
+    a.sharpness_x = (float)lx;
+    a.sharpness_y = (float)ly;
+    a.log_amplitude = 0;
+    return a;
+}
+
+static sg_lobe sg_around(const double axis[3], double sharpness) {
+    sg_lobe g;
+    g.axis = narrow(axis);
+    g.sharpness = (float)sharpness;
+    g.log_amplitude = 0;
+    return g;
+}
+
+/* A direction at an angle from another, in a random azimuth. */
+static void direction_near(test_rng *rng, const double axis[3], double angle, double out[3]) {
+    double u[3], v[3], phi = 2 * REFERENCE_PI * test_uniform(rng);
+    int k;
+    reference_frame(axis, u, v);
+    for (k = 0; k < 3; k++) {
+        out[k] = cos(angle) * axis[k] + sin(angle) * (cos(phi) * u[k] + sin(phi) * v[k]);
+    }
+}
+
+/* ---- quadrature ----
+
+ The integral of exp(pull.w - w'form w) max(w.z0, 0) max(w.z1, 0) over the sphere. In the frame whose x axis is
+ perpendicular to z0 and z1, with z0 as z, w = (sin a, cos a sin b, cos a cos b): the two planes bound b alone, and the
+ integrand is smooth between. The exponent on a ring of constant a is a trigonometric polynomial of b, which gives the
+ peak; meshes are graded from there. */
+typedef struct {
+    double form[3][3], pull[3], second[3], low, high, top;
+    int axes;
+    reference_gauss rule;
+} lune;
+
+typedef struct {
+    double constant, cosine, sine, square, mixed; /* of 1, cos b, sin b, cos^2 b, cos b sin b */
+} ring;
+
+static ring ring_at(const lune *l, double a) {
+    double s = sin(a), c = cos(a);
+    ring r;
+    r.constant = l->pull[0] * s - l->form[0][0] * s * s - l->form[1][1] * c * c;
+    r.cosine = c * (l->pull[2] - 2 * l->form[0][2] * s);
+    r.sine = c * (l->pull[1] - 2 * l->form[0][1] * s);
+    r.square = c * c * (l->form[1][1] - l->form[2][2]);
+    r.mixed = -2 * c * c * l->form[1][2];
+    return r;
+}
+
+static double ring_exponent(const ring *r, double c, double s) {
+    return r->constant + c * (r->cosine + r->square * c + r->mixed * s) + r->sine * s;
+}
+
+static double ring_slope(const ring *r, double b, double *curvature) {
+    double c = cos(b), s = sin(b), c2 = c * c - s * s, s2 = 2 * s * c;
+    *curvature = -r->cosine * c - r->sine * s - 2 * r->square * c2 - 2 * r->mixed * s2;
+    return -r->cosine * s + r->sine * c - r->square * s2 + r->mixed * c2;
+}
+
+static double ring_peak(const lune *l, const ring *r) {
+    const int count = 16;
+    double step = (l->high - l->low) / count, best = 0, at = 0, curvature;
+    double c = cos(l->low), s = sin(l->low), cs = cos(step), ss = sin(step), from, to;
+    int i;
+    for (i = 0; i <= count; i++) {
+        double e = ring_exponent(r, c, s), turned = c * cs - s * ss;
+        if (i == 0 || e > best) {
+            best = e;
+            at = l->low + i * step;
+        }
+        s = s * cs + c * ss;
+        c = turned;
+    }
+    from = fmax(at - step, l->low);
+    to = fmin(at + step, l->high);
+    for (i = 0; i < 8; i++) {
+        at = 0.5 * (from + to);
+        if (ring_slope(r, at, &curvature) > 0)
+            from = at;
+        else
+            to = at;
+    }
+    for (i = 0; i < 3; i++) {
+        double slope = ring_slope(r, at, &curvature);
+        if (curvature < 0) at = fmin(fmax(at - slope / curvature, from), to);
+    }
+    return at;
+}
+
+/* Edges graded from `at`, where the first panels have the given width, to low and high. */
+static int graded_mesh(double low, double high, double at, double width, double *edges) {
+    const double growth = 2.5, widest = 0.5;
+    double below[128], w, e;
+    int count = 0, lower = 0;
+    for (w = width, e = at - w; e > low && lower < 60; w = fmin(w * growth, widest), e -= w)
+        below[lower++] = e;
+    edges[count++] = low;
+    while (lower > 0) edges[count++] = below[--lower];
+    if (at > low) edges[count++] = at;
+    for (w = width, e = at + w; e < high && count < 120; w = fmin(w * growth, widest), e += w)
+        edges[count++] = e;
+    if (edges[count - 1] < high) edges[count++] = high;
+    return count;
+}
+
+static double ring_integral(const lune *l, double a) {
+    const ring r = ring_at(l, a);
+    const double across = cos(a), peak = ring_peak(l, &r);
+    double edges[128], curvature, slope, width, sum = 0;
+    int count, i, k;
+    if (ring_exponent(&r, cos(peak), sin(peak)) < l->top - 40) return 0;
+    slope = ring_slope(&r, peak, &curvature);
+    width = 1 / (1 + sqrt(fabs(curvature)) + fabs(slope));
+    count = graded_mesh(l->low, l->high, peak, width, edges);
+    for (i = 0; i + 1 < count; i++) {
+        double half = 0.5 * (edges[i + 1] - edges[i]), middle = 0.5 * (edges[i + 1] + edges[i]);
+        for (k = 0; k < REFERENCE_GAUSS_COUNT; k++) {
+            double b = middle + half * l->rule.node[k], c = cos(b), s = sin(b);
+            double e = ring_exponent(&r, c, s) - l->top, value = across * c;
+            if (e < -40) continue;
+            if (l->axes == 2) value *= across * (s * l->second[1] + c * l->second[2]);
+            sum += half * l->rule.weight[k] * value * exp(e);
+        }
+    }
+    return sum * across;
+}
+
+static double profile(const lune *l, double a) {
+    const ring r = ring_at(l, a);
+    double b = ring_peak(l, &r);
+    return ring_exponent(&r, cos(b), sin(b));
+}
+
+/* Of one or two ASGs and an SG (or none). */
+static double reference_product(asg_lobe first, const asg_lobe *second, const sg_lobe *g) {
+    exact_asg lobe[2];
+    double frame[3][3], edges[128], axis[3], step, at = 0, from, to, width, sum = 0, log_amplitude;
+    lune l;
+    int n, i, j, k, m, count, aligned;
+    l.axes = second ? 2 : 1;
+    l.rule = reference_gauss_rule();
+    lobe[0] = exact_of(first);
+    lobe[1] = exact_of(second ? *second : first);
+    cross(lobe[0].z, lobe[1].z, frame[0]);
+    aligned = dot(frame[0], frame[0]) < 1e-20; /* then the narrower axis goes across the rings */
+    for (k = 0; k < 3; k++) {
+        if (aligned) frame[0][k] = lobe[0].lx > lobe[0].ly ? lobe[0].x[k] : lobe[0].y[k];
+        frame[2][k] = lobe[0].z[k];
+    }
+    normalize(frame[0]);
+    cross(frame[2], frame[0], frame[1]);
+    log_amplitude = lobe[0].log_amplitude + (second ? lobe[1].log_amplitude : 0);
+    if (g) {
+        widen(g->axis, axis);
+        normalize(axis);
+        log_amplitude += (double)g->log_amplitude - (double)g->sharpness;
+    }
+    for (i = 0; i < 3; i++) {
+        l.pull[i] = g ? (double)g->sharpness * dot(axis, frame[i]) : 0;
+        l.second[i] = dot(lobe[1].z, frame[i]);
+        for (j = 0; j < 3; j++) {
+            l.form[i][j] = 0;
+            for (n = 0; n < l.axes; n++) {
+                l.form[i][j] += lobe[n].lx * dot(lobe[n].x, frame[i]) * dot(lobe[n].x, frame[j]) +
+                                lobe[n].ly * dot(lobe[n].y, frame[i]) * dot(lobe[n].y, frame[j]);
+            }
+        }
+    }
+    l.low = -REFERENCE_PI / 2;
+    l.high = REFERENCE_PI / 2;
+    if (l.axes == 2) {
+        double b = atan2(l.second[1], l.second[2]);
+        if (b > 0)
+            l.low += b;
+        else
+            l.high += b;
+        if (l.high - l.low < 1e-9) return 0;
+    }
+    from = -REFERENCE_PI / 2;
+    step = REFERENCE_PI / 24;
+    l.top = -HUGE_VAL;
+    for (i = 0; i <= 24; i++) {
+        double top = profile(&l, from + i * step);
+        if (top > l.top) {
+            l.top = top;
+            at = from + i * step;
+        }
+    }
+    from = fmax(at - step, -REFERENCE_PI / 2);
+    to = fmin(at + step, REFERENCE_PI / 2);
+    for (m = 0; m < 36; m++) {
+        double lower = from + 0.381966 * (to - from), upper = from + 0.618034 * (to - from);
+        if (profile(&l, lower) < profile(&l, upper))
+            from = lower;
+        else
+            to = upper;
+    }
+    at = 0.5 * (from + to);
+    l.top = profile(&l, at);
+    for (width = 1e-7; width < 1; width *= 1.6) {
+        double lower = profile(&l, fmax(at - width, -REFERENCE_PI / 2));
+        double upper = profile(&l, fmin(at + width, REFERENCE_PI / 2));
+        if (fmax(lower, upper) < l.top - 0.5) break;
+    }
+    count = graded_mesh(-REFERENCE_PI / 2, REFERENCE_PI / 2, at, width, edges);
+    for (i = 0; i + 1 < count; i++) {
+        double half = 0.5 * (edges[i + 1] - edges[i]), middle = 0.5 * (edges[i + 1] + edges[i]);
+        for (k = 0; k < REFERENCE_GAUSS_COUNT; k++) {
+            sum += half * l.rule.weight[k] * ring_integral(&l, middle + half * l.rule.node[k]);
+        }
+    }
+    return sum * exp(l.top + log_amplitude);
+}
+
+/* The same for one ASG, by one integral over the azimuth of the projected disk. */
+static double reference_integral(double lx, double ly) {
+    const reference_gauss rule = reference_gauss_rule();
+    double u = fmin(lx, ly), d = fmax(lx, ly) - u, edges[128], sum = 0;
+    int count = graded_mesh(0, REFERENCE_PI / 2, 0, sqrt((1 + u) / (1 + u + d)), edges), i, k;
+    for (i = 0; i + 1 < count; i++) {
+        double half = 0.5 * (edges[i + 1] - edges[i]), middle = 0.5 * (edges[i + 1] + edges[i]);
+        for (k = 0; k < REFERENCE_GAUSS_COUNT; k++) {
+            double s = sin(middle + half * rule.node[k]), l = u + d * s * s;
+            sum += half * rule.weight[k] * (l > 1e-12 ? -expm1(-l) / l : 1);
+        }
+    }
+    return 2 * sum;
+}
+
+/* What rounding of the directions costs a lobe of the given sharpness and exponent: see the head of asg.h. */
+static double directional(double sharpness, double exponent) {
+    double e = fabs(exponent);
+    return TEST_EPSILON * (1 + e + sqrt(sharpness * e) + TEST_EPSILON * sharpness);
+}
+
+/* ---- evaluate and integrate ---- */
+
+static void eval_matches(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_eval", "directional");
+    test_rng rng = {101};
+    int i;
+    for (i = 0; i < 200000; i++) {
+        double axis[3], dir[3], lx = test_log_uniform(&rng, bound.low, bound.high), ly = lx, wanted, e, z,
+                                inputs[8];
+        asg_lobe a;
+        exact_asg exact;
+        int kind = i % 8;
+        test_direction(&rng, axis);
+        if (kind & 1) ly = test_log_uniform(&rng, bound.low, bound.high);
+        a = lobe_around(axis, 7 * test_uniform(&rng), lx, ly);
+        if (kind < 2)
+            test_direction(&rng, dir);
+        else if (kind < 6)
+            direction_near(&rng, axis, fmin(5 * test_uniform(&rng) / sqrt(fmax(lx, ly)), 3), dir);
+        else
+            direction_near(&rng, axis, REFERENCE_PI / 2 + 1e-6 * (test_uniform(&rng) - 0.5), dir);
+        widen(narrow(dir), dir);
+        exact = exact_of(a);
+        z = fmax(dot(dir, exact.z), 0);
+        e = -exact.lx * pow(dot(dir, exact.x), 2) - exact.ly * pow(dot(dir, exact.y), 2);
+        wanted = z * exp(e);
+        if (e < -80) { /* where floats end */
+            test_that(asg_eval(a, narrow(dir)) < 1e-33f, "nothing where the exponent is below -80", dir, 3);
+            continue;
+        }
+        inputs[0] = (double)a.sharpness_x;
+        inputs[1] = (double)a.sharpness_y;
+        for (kind = 0; kind < 3; kind++) {
+            inputs[2 + kind] = exact.z[kind];
+            inputs[5 + kind] = dir[kind];
+        }
+        test_within(&bound, (double)asg_eval(a, narrow(dir)), wanted,
+                    exp(e) * (TEST_EPSILON + z * directional(fmax(lx, ly), e)), inputs, 8);
+    }
+    test_report(&bound);
+}
+
+static void eval_named_cases(void) {
+    const double up[3] = {0, 0, 1};
+    const float sharpness[3] = {0, 1, 1e10f};
+    int i;
+    for (i = 0; i < 3; i++) {
+        asg_lobe a = lobe_around(up, 0, (double)sharpness[i], 2 * (double)sharpness[i]);
+        double s = (double)sharpness[i];
+        test_that(asg_eval(a, lobe_vector(0, 0, 1)) == 1, "1 along the axis", &s, 1);
+        test_that(asg_eval(a, lobe_vector(0, 0, -1)) == 0, "0 opposite the axis", &s, 1);
+        test_that(asg_eval(a, a.x) == 0 && asg_eval(a, a.y) == 0, "0 at the horizon", &s, 1);
+        a.log_amplitude = -3;
+        test_that(fabs((double)asg_eval(a, a.z) - exp(-3.0)) < 1e-7, "the amplitude along the axis", &s, 1);
+    }
+}
+
+static void integral_matches(void) {
+    const double up[3] = {0, 0, 1};
+    test_bound bound = test_bound_of("asg.h", "asg_integral", "rel");
+    test_bound round = test_bound_of("asg.h", "asg_integral", "isotropic");
+    test_bound rough = test_bound_of("asg.h", "asg_integral_approx", "model");
+    test_rng rng = {102};
+    double l;
+    int i;
+    for (i = 0; i < 3000; i++) {
+        double inputs[2], wanted;
+        asg_lobe a;
+        inputs[0] = test_log_uniform(&rng, bound.low, bound.high);
+        inputs[1] = fmin(inputs[0] * test_log_uniform(&rng, 1, i & 1 ? 1e5 : 100), bound.high);
+        a = lobe_around(up, 0, inputs[i % 2], inputs[1 - i % 2]);
+        wanted = reference_integral((double)a.sharpness_x, (double)a.sharpness_y);
+        test_within(&bound, (double)asg_integral(a), wanted, wanted, inputs, 2);
+        if (inputs[0] >= rough.low)
+            test_within(&rough, (double)asg_integral_approx(a), wanted, wanted, inputs, 2);
+    }
+    for (l = round.low; l <= round.high; l *= 1.37) {
+        asg_lobe a = lobe_around(up, 0, l, l);
+        double exact = (double)a.sharpness_x, wanted = REFERENCE_PI * -expm1(-exact) / exact;
+        test_within(&round, (double)asg_integral(a), wanted, wanted, &exact, 1);
+        if (l >= rough.low) test_within(&rough, (double)asg_integral_approx(a), wanted, wanted, &exact, 1);
+    }
+    l = 0;
+    test_within(&round, (double)asg_integral(lobe_around(up, 0, 0, 0)), REFERENCE_PI, REFERENCE_PI, &l, 1);
+    test_report(&bound);
+    test_report(&round);
+    test_report(&rough);
+}
+
+/* The quadrature itself, against the general one of reference.h and closed forms. */
+typedef struct {
+    exact_asg lobe[2];
+    double axis[3], sharpness;
+} product_context;
+
+static double product_value(const double w[3], const void *context) {
+    const product_context *p = (const product_context *)context;
+    return exact_eval(&p->lobe[0], w) * exact_eval(&p->lobe[1], w) *
+           exp(p->sharpness * (dot(w, p->axis) - 1));
+}
+
+static void quadratures_agree(void) {
+    test_rng rng = {103};
+    int i;
+    for (i = 0; i < 8; i++) {
+        product_context p;
+        double z[3], other[3], got, wanted, inputs[2];
+        asg_lobe a, b;
+        sg_lobe g;
+        test_direction(&rng, z);
+        a = lobe_around(z, 7 * test_uniform(&rng), test_log_uniform(&rng, 0.1, 20),
+                        test_log_uniform(&rng, 0.1, 20));
+        direction_near(&rng, z, test_uniform(&rng), other);
+        b = lobe_around(other, 7 * test_uniform(&rng), test_log_uniform(&rng, 0.1, 20), 1);
+        direction_near(&rng, z, test_uniform(&rng), other);
+        g = sg_around(other, test_log_uniform(&rng, 0.1, 20));
+        p.lobe[0] = exact_of(a);
+        p.lobe[1] = exact_of(b);
+        widen(g.axis, p.axis);
+        normalize(p.axis);
+        p.sharpness = (double)g.sharpness;
+        got = inputs[0] = reference_product(a, &b, &g);
+        wanted = inputs[1] = reference_sphere_azimuth(product_value, &p, p.lobe[0].z, 10, 400);
+        test_that(fabs(got / wanted - 1) < 1e-4, "two quadratures agree", inputs, 2);
+        got = inputs[0] = reference_product(a, NULL, NULL);
+        wanted = inputs[1] = reference_integral((double)a.sharpness_x, (double)a.sharpness_y);
+        test_that(fabs(got / wanted - 1) < 1e-9, "quadrature and disk integral agree", inputs, 2);
+    }
+}
+
+/* ---- ASG times SG ---- */
+
+static void sg_integrals_match(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_sg_integral", "aligned");
+    test_bound rms = test_bound_of("asg.h", "asg_sg_integral", "rms");
+    test_bound sharp = test_bound_of("asg.h", "asg_sg_integral", "sharp");
+    test_bound xu = test_bound_of("asg.h", "asg_sg_integral_xu", "aligned");
+    test_bound xu_rms = test_bound_of("asg.h", "asg_sg_integral_xu", "rms");
+    test_rng rng = {104};
+    double squares = 0, xu_squares = 0;
+    int i, count = 0, xu_count = 0;
+    for (i = 0; i < 1200; i++) {
+        double z[3], axis[3], inputs[4], wanted, aligned, lx, ly, lg, angle;
+        asg_lobe a;
+        sg_lobe g, ahead;
+        test_direction(&rng, z);
+        lx = test_log_uniform(&rng, bound.low, bound.high);
+        ly = test_log_uniform(&rng, bound.low, bound.high);
+        lg = test_log_uniform(&rng, bound.low, bound.high);
+        angle = 4 * test_uniform(&rng) / sqrt(1 / (1 / (0.5 * lg + 0.5) + 1 / (fmin(lx, ly) + 0.5)));
+        angle =
+            i % 4 ? fmin(4 * test_uniform(&rng) * sqrt(1 / (0.5 * lg + 0.5) + 1 / (fmin(lx, ly) + 0.5)), 3.14)
+                  : acos(1 - 2 * test_uniform(&rng));
+        if (i % 50 == 1) angle = 0;
+        if (i % 50 == 2) angle = REFERENCE_PI / 2;
+        if (i % 50 == 3) angle = REFERENCE_PI;
+        a = lobe_around(z, 7 * test_uniform(&rng), lx, ly);
+        direction_near(&rng, z, angle, axis);
+        g = sg_around(axis, lg);
+        ahead = sg_around(z, lg);
+        wanted = reference_product(a, NULL, &g);
+        aligned = reference_product(a, NULL, &ahead);
+        inputs[0] = lx;
+        inputs[1] = ly;
+        inputs[2] = lg;
+        inputs[3] = angle;
+        test_within(&bound, (double)asg_sg_integral(a, g), wanted, aligned, inputs, 4);
+        if (lg >= sharp.low && fmin(lx, ly) >= sharp.low) {
+            test_within(&sharp, (double)asg_sg_integral(a, g), wanted, aligned, inputs, 4);
+        }
+        if (wanted > 0.01 * aligned) {
+            squares += pow((double)asg_sg_integral(a, g) / wanted - 1, 2);
+            count++;
+        }
+        if (lg < xu.low || fmin(lx, ly) < xu.low) continue;
+        test_within(&xu, (double)asg_sg_integral_xu(a, g), wanted, aligned, inputs, 4);
+        if (wanted > 0.01 * aligned) {
+            xu_squares += pow((double)asg_sg_integral_xu(a, g) / wanted - 1, 2);
+            xu_count++;
+        }
+    }
+    test_within(&rms, sqrt(squares / count), 0, 1, NULL, 0);
+    test_within(&xu_rms, sqrt(xu_squares / xu_count), 0, 1, NULL, 0);
+    test_report(&bound);
+    test_report(&rms);
+    test_report(&sharp);
+    test_report(&xu);
+    test_report(&xu_rms);
+}
+
+/* Against an SG that is a point, both are the lobe's value times the SG's integral. */
+static void sg_integrals_sharp_limit(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_sg_integral", "directional");
+    test_bound xu = test_bound_of("asg.h", "asg_sg_integral_xu", "directional");
+    test_rng rng = {105};
+    int i;
+    for (i = 0; i < 20000; i++) {
+        double z[3], axis[3], inputs[4], wanted, e, lx = test_log_uniform(&rng, 1, 1e3);
+        double ly = test_log_uniform(&rng, 1, 1e3), lg = test_log_uniform(&rng, bound.low, bound.high), unit;
+        asg_lobe a;
+        sg_lobe g;
+        exact_asg exact;
+        test_direction(&rng, z);
+        a = lobe_around(z, 7 * test_uniform(&rng), lx, ly);
+        exact = exact_of(a);
+        direction_near(&rng, z, fmin(2 * test_uniform(&rng) / sqrt(fmin(lx, ly)), 1.2), axis);
+        g = sg_around(axis, lg);
+        widen(g.axis, axis);
+        normalize(axis);
+        inputs[0] = lx;
+        inputs[1] = ly;
+        inputs[2] = lg;
+        wanted = inputs[3] = exact_eval(&exact, axis);
+        e = log(wanted / dot(axis, exact.z));
+        unit = directional(fmax(lx, ly), e);
+        wanted *= 2 * REFERENCE_PI / (double)g.sharpness;
+        if (wanted < 1e-36) continue;
+        test_within(&bound, (double)asg_sg_integral(a, g), wanted, wanted * unit, inputs, 4);
+        test_within(&xu, (double)asg_sg_integral_xu(a, g), wanted, wanted * unit, inputs, 4);
+    }
+    test_report(&bound);
+    test_report(&xu);
+}
+
+/* No direction of the SG may beat the lobe's own axis, however extreme the two. */
+static void sg_integrals_stay_below_aligned(void) {
+    test_rng rng = {120};
+    int i;
+    for (i = 0; i < 200000; i++) {
+        double z[3], axis[3], inputs[4], aligned, got;
+        asg_lobe a;
+        inputs[0] = test_log_uniform(&rng, 1e-3, 1e12);
+        inputs[1] = test_log_uniform(&rng, 1e-3, 1e12);
+        inputs[2] = test_log_uniform(&rng, 1e-3, 1e12);
+        inputs[3] = i % 2 ? acos(1 - 2 * test_uniform(&rng)) : 1.2 + 0.8 * test_uniform(&rng);
+        test_direction(&rng, z);
+        a = lobe_around(z, 7 * test_uniform(&rng), inputs[0], inputs[1]);
+        direction_near(&rng, z, inputs[3], axis);
+        got = (double)asg_sg_integral(a, sg_around(axis, inputs[2]));
+        aligned = (double)asg_sg_integral(a, sg_around(z, inputs[2]));
+        test_that(got <= 1.05 * aligned, "at most the value for aligned axes", inputs, 4);
+    }
+}
+
+/* ---- ASG times ASG ---- */
+
+static double weight(double both, double first, double second) {
+    return both / sqrt(first * second);
+}
+
+static void products_match(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_product_integral", "aligned");
+    test_bound rms = test_bound_of("asg.h", "asg_product_integral", "rms");
+    test_bound weights = test_bound_of("asg.h", "asg_product_integral", "weight");
+    test_bound xu = test_bound_of("asg.h", "asg_product_integral_xu", "aligned");
+    test_bound xu_rms = test_bound_of("asg.h", "asg_product_integral_xu", "rms");
+    test_bound xu_weights = test_bound_of("asg.h", "asg_product_integral_xu", "weight");
+    test_rng rng = {106};
+    double squares = 0, xu_squares = 0;
+    int i, k, count = 0, xu_count = 0;
+    for (i = 0; i < 400; i++) {
+        double z[3], other[3], l[4], inputs[5], wanted, first, second, aligned, got, smallest, angle;
+        asg_lobe a, b;
+        smallest = test_log_uniform(&rng, bound.low, i % 2 ? 10 : 0.1 * bound.high);
+        for (k = 0; k < 4; k++)
+            l[k] = inputs[k] = fmin(smallest * test_log_uniform(&rng, 1, 1e3), bound.high);
+        l[i & 3] = inputs[i & 3] = smallest;
+        angle = i % 3 ? fmin(3 * test_uniform(&rng) / sqrt(smallest + 0.3), 3.1)
+                      : acos(1 - 2 * test_uniform(&rng));
+        if (i % 40 == 0) angle = 0;
+        if (i % 40 == 1) angle = REFERENCE_PI;
+        if (i % 40 == 2) angle = REFERENCE_PI / 2;
+        inputs[4] = angle;
+        test_direction(&rng, z);
+        a = lobe_around(z, 7 * test_uniform(&rng), l[0], l[1]);
+        direction_near(&rng, z, angle, other);
+        b = lobe_around(other, 7 * test_uniform(&rng), l[2], l[3]);
+        wanted = reference_product(a, &b, NULL);
+        first = reference_product(a, &a, NULL);
+        second = reference_product(b, &b, NULL);
+        aligned = sqrt(first * second);
+        got = (double)asg_product_integral(a, b);
+        test_within(&bound, got, wanted, aligned, inputs, 5);
+        got = weight(got, (double)asg_product_integral(a, a), (double)asg_product_integral(b, b));
+        test_within(&weights, got, weight(wanted, first, second), 1, inputs, 5);
+        if (wanted > 0.01 * aligned) {
+            squares += pow((double)asg_product_integral(a, b) / wanted - 1, 2);
+            count++;
+        }
+        if (smallest < xu.low) continue;
+        got = (double)asg_product_integral_xu(a, b);
+        test_within(&xu, got, wanted, aligned, inputs, 5);
+        if (wanted > 0.01 * aligned) {
+            xu_squares += pow(got / wanted - 1, 2);
+            xu_count++;
+        }
+        got = weight(got, (double)asg_product_integral_xu(a, a), (double)asg_product_integral_xu(b, b));
+        test_within(&xu_weights, got, weight(wanted, first, second), 1, inputs, 5);
+    }
+    test_within(&rms, sqrt(squares / count), 0, 1, NULL, 0);
+    test_within(&xu_rms, sqrt(xu_squares / xu_count), 0, 1, NULL, 0);
+    test_report(&bound);
+    test_report(&rms);
+    test_report(&weights);
+    test_report(&xu);
+    test_report(&xu_rms);
+    test_report(&xu_weights);
+}
+
+/* Sharp lobes, where the model is exact: what is left is rounding. */
+static void products_round(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_product_integral", "directional");
+    test_bound xu = test_bound_of("asg.h", "asg_product_integral_xu", "directional");
+    test_rng rng = {107};
+    int i;
+    for (i = 0; i < 300; i++) {
+        double z[3], other[3], inputs[5], wanted, aligned, e, unit, smallest;
+        asg_lobe a, b;
+        test_direction(&rng, z);
+        smallest = test_log_uniform(&rng, bound.low, bound.high);
+        inputs[0] = fmin(smallest * test_log_uniform(&rng, 1, 100), bound.high);
+        inputs[1] = fmin(smallest * test_log_uniform(&rng, 1, 100), bound.high);
+        inputs[2] = fmin(smallest * test_log_uniform(&rng, 1, 100), bound.high);
+        inputs[3] = smallest;
+        inputs[4] = i % 4 ? 3 * test_uniform(&rng) / sqrt(smallest) : 0;
+        a = lobe_around(z, 7 * test_uniform(&rng), inputs[0], inputs[1]);
+        direction_near(&rng, z, inputs[4], other);
+        b = i % 4 ? lobe_around(other, 7 * test_uniform(&rng), inputs[2], inputs[3]) : a;
+        wanted = reference_product(a, &b, NULL);
+        aligned = sqrt(reference_product(a, &a, NULL) * reference_product(b, &b, NULL));
+        e = log(wanted / aligned);
+        if (!(e > -20)) continue;
+        unit = wanted * directional(fmax(fmax(inputs[0], inputs[1]), fmax(inputs[2], inputs[3])), e);
+        test_within(&bound, (double)asg_product_integral(a, b), wanted, unit, inputs, 5);
+        test_within(&xu, (double)asg_product_integral_xu(a, b), wanted, unit, inputs, 5);
+    }
+    test_report(&bound);
+    test_report(&xu);
+}
+
+static void weights_are_weights(void) {
+    test_rng rng = {108};
+    int i;
+    for (i = 0; i < 100000; i++) {
+        double z[3], other[3], inputs[5], w, back, first, second;
+        asg_lobe a, b;
+        test_direction(&rng, z);
+        inputs[0] = test_log_uniform(&rng, 1e-3, 1e9);
+        inputs[1] = test_log_uniform(&rng, 1e-3, 1e9);
+        inputs[2] = test_log_uniform(&rng, 1e-3, 1e9);
+        inputs[3] = test_log_uniform(&rng, 1e-3, 1e9);
+        inputs[4] =
+            i % 8 == 0 ? 0 : acos(1 - 2 * test_uniform(&rng)) * (i % 2 ? 1 : test_log_uniform(&rng, 1e-6, 1));
+        a = lobe_around(z, 7 * test_uniform(&rng), inputs[0], inputs[1]);
+        direction_near(&rng, z, inputs[4], other);
+        b = lobe_around(other, 7 * test_uniform(&rng), inputs[2], inputs[3]);
+        first = (double)asg_product_integral(a, a);
+        second = (double)asg_product_integral(b, b);
+        w = weight((double)asg_product_integral(a, b), first, second);
+        back = weight((double)asg_product_integral(b, a), first, second);
+        test_that(weight(first, first, first) == 1, "a lobe's weight with itself is 1", inputs, 5);
+        test_that(w >= 0 && w <= 1.002, "a weight is at most 1 (and .002)", inputs, 5);
+        test_that(fabs(w - back) <= 1e-6 + 2e-3 * w, "a weight is symmetric", inputs, 5);
+    }
+}
+
+/* One lobe turns past another: the weight must fall and rise without jumps. */
+static void weights_turn_smoothly(void) {
+    const double sharpness[5][2] = {{2, 9}, {50, 3000}, {1000, 1000}, {1e4, 4e6}, {10, 1e6}};
+    const double up[3] = {0, 0, 1};
+    int i, step;
+    for (i = 0; i < 5; i++) {
+        const int steps = 4000;
+        asg_lobe a = lobe_around(up, 0, sharpness[i][0], sharpness[i][1]);
+        double self = (double)asg_product_integral(a, a), last = 2;
+        for (step = 0; step <= steps; step++) {
+            double angle = REFERENCE_PI / 2 * step / steps, w, inputs[2];
+            asg_lobe b = lobe_around(up, angle, sharpness[i][0], sharpness[i][1]);
+            w = weight((double)asg_product_integral(a, b), self, (double)asg_product_integral(b, b));
+            inputs[0] = i;
+            inputs[1] = angle;
+            test_that(w <= last + 1e-6 + 1e-8 * sqrt(sharpness[i][1]), "the weight falls as the lobe turns",
+                      inputs, 2);
+            last = w;
+        }
+        test_that(sharpness[i][0] == sharpness[i][1] ? fabs(last - 1) < 1e-5 : last < 0.99,
+                  "a quarter turn changes anisotropic lobes only", &sharpness[i][0], 2);
+        last = 2;
+        for (step = 0; step <= steps; step++) {
+            double angle = 4 / sqrt(sharpness[i][0]) * step / steps, z[3], w, inputs[2];
+            asg_lobe b;
+            angle = fmin(angle, REFERENCE_PI);
+            z[0] = sin(angle);
+            z[1] = 0;
+            z[2] = cos(angle);
+            b = a;
+            b.z = narrow(z);
+            b.x = lobe_vector(b.z.z, 0, -b.z.x);
+            b.y = lobe_vector(0, 1, 0);
+            a.x = lobe_vector(1, 0, 0);
+            a.y = lobe_vector(0, 1, 0);
+            w = weight((double)asg_product_integral(a, b), self, (double)asg_product_integral(b, b));
+            inputs[0] = i;
+            inputs[1] = angle;
+            test_that(w <= last + 1e-6, "the weight falls as the axes part", inputs, 2);
+            last = w;
+        }
+    }
+}
+
+static void opposed_lobes_part(void) {
+    double l;
+    for (l = 0; l < 1e8; l = 10 * l + 0.1) {
+        const double up[3] = {0, 0, 1}, down[3] = {0, 0, -1};
+        asg_lobe a = lobe_around(up, 0, l, l), b = lobe_around(down, 1, l, l);
+        double self = (double)asg_product_integral(a, a);
+        test_that((double)asg_product_integral(a, b) <= 0.01 * self, "opposed lobes do not meet", &l, 1);
+        test_that(asg_product_integral_xu(a, b) == 0, "nor in Xu's model", &l, 1);
+    }
+}
+
+/* ---- convolution ---- */
+
+static void convolve_widens(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_convolve", "rel");
+    test_rng rng = {109};
+    int i;
+    for (i = 0; i < 20000; i++) {
+        double z[3], inputs[3], sx, sy, wanted, fx, fy;
+        asg_lobe a, b;
+        test_direction(&rng, z);
+        inputs[0] = test_log_uniform(&rng, bound.low, bound.high);
+        inputs[1] = test_log_uniform(&rng, bound.low, bound.high);
+        inputs[2] = test_log_uniform(&rng, bound.low, bound.high);
+        a = lobe_around(z, 1, inputs[0], inputs[1]);
+        b = asg_convolve(a, (float)inputs[2]);
+        fx = 1 + 2 * (double)a.sharpness_x / (double)(float)inputs[2];
+        fy = 1 + 2 * (double)a.sharpness_y / (double)(float)inputs[2];
+        sx = (double)a.sharpness_x / fx;
+        sy = (double)a.sharpness_y / fy;
+        wanted = -0.5 * log(fx * fy);
+        test_within(&bound, (double)b.sharpness_x, sx, sx, inputs, 3);
+        test_within(&bound, (double)b.sharpness_y, sy, sy, inputs, 3);
+        test_within(&bound, (double)b.log_amplitude, wanted, 1 + fabs(wanted), inputs, 3);
+        b = asg_convolve(a, HUGE_VALF);
+        test_that(b.sharpness_x == a.sharpness_x && b.sharpness_y == a.sharpness_y && b.log_amplitude == 0,
+                  "a kernel of infinite sharpness changes nothing", inputs, 3);
+    }
+    test_report(&bound);
+}
+
+/* An ASG and the SG of twice its sharpness blur alike; twice by kappa is once by kappa / 2; the integral stays. */
+static void convolve_is_consistent(void) {
+    test_rng rng = {110};
+    int i;
+    for (i = 0; i < 2000; i++) {
+        const double up[3] = {0, 0, 1};
+        double inputs[2];
+        asg_lobe a, once, twice;
+        sg_lobe g;
+        inputs[0] = test_log_uniform(&rng, 1e-3, 1e6);
+        inputs[1] = test_log_uniform(&rng, 1e-3, 1e6);
+        a = lobe_around(up, 0, inputs[0], 3 * inputs[0]);
+        once = asg_convolve(a, (float)(0.5 * inputs[1]));
+        twice = asg_convolve(asg_convolve(a, (float)inputs[1]), (float)inputs[1]);
+        test_that(fabs((double)(once.sharpness_x / twice.sharpness_x) - 1) < 1e-6 &&
+                      fabs((double)(once.sharpness_y / twice.sharpness_y) - 1) < 1e-6 &&
+                      fabs((double)(once.log_amplitude - twice.log_amplitude)) < 2e-5,
+                  "two small kernels make a large one", inputs, 2);
+        test_that(fabs((double)(asg_integral_approx(once) / asg_integral_approx(a)) - 1) < 1e-5 ||
+                      (double)once.sharpness_x < 1e-3,
+                  "the flat integral stays", inputs, 2);
+        g = sg_around(up, 2 * (double)a.sharpness_x);
+        g = sg_convolve(g, (float)inputs[1]);
+        a.sharpness_y = a.sharpness_x;
+        a = asg_convolve(a, (float)inputs[1]);
+        test_that(fabs(2 * (double)(a.sharpness_x / g.sharpness) - 1) < 1e-6 &&
+                      fabs((double)(a.log_amplitude - g.log_amplitude)) < 1e-5,
+                  "as an SG of twice the sharpness", inputs, 2);
+    }
+}
+
+/* Against a wide SG the blurred lobe has the integral of the lobe against the SG blurred: both are one triple product. */
+static void convolve_matches_quadrature(void) {
+    const double up[3] = {0, 0, 1};
+    test_bound bound = test_bound_of("asg.h", "asg_convolve", "model");
+    test_rng rng = {111};
+    int i;
+    for (i = 0; i < 60; i++) {
+        double dir[3], inputs[4], wanted, got;
+        asg_lobe a;
+        sg_lobe kernel;
+        inputs[0] = test_log_uniform(&rng, bound.low, bound.high);
+        inputs[1] = test_log_uniform(&rng, bound.low, bound.high);
+        inputs[2] = test_log_uniform(&rng, bound.low, bound.high);
+        inputs[3] = 3 * test_uniform(&rng) / sqrt(1 / (1 / fmin(inputs[0], inputs[1]) + 2 / inputs[2]));
+        inputs[3] = fmin(3 * test_uniform(&rng) * sqrt(1 / fmin(inputs[0], inputs[1]) + 2 / inputs[2]), 1.5);
+        a = lobe_around(up, 0, inputs[0], inputs[1]);
+        direction_near(&rng, up, inputs[3], dir);
+        kernel = sg_around(dir, inputs[2]);
+        kernel.log_amplitude = logf(kernel.sharpness / (2 * LOBE_PI));
+        wanted = reference_product(a, NULL, &kernel);
+        a = asg_convolve(a, kernel.sharpness);
+        got = (double)asg_eval(a, kernel.axis);
+        test_within(&bound, got, wanted, exp((double)a.log_amplitude), inputs, 4);
+    }
+    test_report(&bound);
+}
+
+/* ---- reflection lobes ---- */
+
+static void check_frame(test_bound *bound, asg_lobe a, const double *inputs, int count) {
+    double x[3], y[3], z[3], turned[3];
+    int k;
+    widen(a.x, x);
+    widen(a.y, y);
+    widen(a.z, z);
+    cross(x, y, turned);
+    test_within(bound, dot(x, x), 1, 1, inputs, count);
+    test_within(bound, dot(y, y), 1, 1, inputs, count);
+    test_within(bound, dot(z, z), 1, 1, inputs, count);
+    test_within(bound, dot(x, y), 0, 1, inputs, count);
+    test_within(bound, dot(y, z), 0, 1, inputs, count);
+    test_within(bound, dot(z, x), 0, 1, inputs, count);
+    for (k = 0; k < 3; k++) test_within(bound, turned[k], z[k], 1, inputs, count);
+}
+
+static void ggx_frames(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_ggx_lobe", "orthonormal");
+    test_bound round = test_bound_of("asg.h", "asg_ggx_lobe", "ulp");
+    test_bound same = test_bound_of("asg.h", "asg_ggx_lobe_aniso", "isotropic");
+    test_rng rng = {112};
+    int i, k;
+    for (i = 0; i < 100000; i++) {
+        double n[3], w[3], t[3], mirror[3], inputs[7], cosine, angle, alpha, sx, sy;
+        asg_lobe a, b, c;
+        test_direction(&rng, n);
+        if (i % 7 == 0) n[0] = n[1] = 0, n[2] = i & 8 ? 1 : -1;
+        widen(narrow(n), n);
+        switch (i % 6) {
+        case 0:
+            angle = 0;
+            break;
+        case 1:
+            angle = test_log_uniform(&rng, 1e-9, 1);
+            break;
+        case 2:
+            angle = REFERENCE_PI / 2 - test_log_uniform(&rng, 1e-9, 1);
+            break;
+        case 3:
+            angle = REFERENCE_PI / 2 + test_log_uniform(&rng, 1e-9, 1);
+            break;
+        default:
+            angle = acos(test_uniform(&rng));
+            break;
+        }
+        direction_near(&rng, n, angle, w);
+        if (angle == 0) {
+            for (k = 0; k < 3; k++) w[k] = n[k];
+        }
+        widen(narrow(w), w);
+        direction_near(&rng, n, REFERENCE_PI / 2, t);
+        alpha = (double)(float)test_log_uniform(&rng, 1e-4, 1);
+        for (k = 0; k < 3; k++) {
+            inputs[k] = n[k];
+            inputs[3 + k] = w[k];
+        }
+        inputs[6] = alpha;
+        a = asg_ggx_lobe(narrow(n), narrow(w), (float)alpha);
+        b = asg_ggx_lobe_aniso(narrow(n), narrow(t), narrow(w), (float)alpha, (float)alpha);
+        c = asg_ggx_lobe_aniso(narrow(n), narrow(t), narrow(w), (float)alpha,
+                               (float)test_log_uniform(&rng, 1e-4, 1));
+        check_frame(&bound, a, inputs, 7);
+        check_frame(&bound, b, inputs, 7);
+        check_frame(&bound, c, inputs, 7);
+        test_that(a.log_amplitude == 0 && b.log_amplitude == 0, "the peak is 1", inputs, 7);
+        for (k = 0; k < 3; k++) mirror[k] = 2 * dot(n, w) * n[k] - w[k];
+        normalize(mirror);
+        test_within(&bound, (double)a.z.x, mirror[0], 1, inputs, 7);
+        test_within(&bound, (double)a.z.y, mirror[1], 1, inputs, 7);
+        test_within(&bound, (double)a.z.z, mirror[2], 1, inputs, 7);
+        cosine = fmax(fabs((double)lobe_dot(narrow(w), narrow(n))), 1e-4);
+        sx = 0.25 / (alpha * alpha);
+        sy = sx / (cosine * cosine);
+        test_within(&round, (double)a.sharpness_x, sx, test_ulp(sx), inputs, 7);
+        test_within(&round, (double)a.sharpness_y, sy, test_ulp(sy), inputs, 7);
+        test_within(&same, (double)b.sharpness_x, sx, sx, inputs, 7);
+        test_within(&same, (double)b.sharpness_y, sy, sy, inputs, 7);
+        /* the across axis lies in the surface, where it is distinct */
+        if (cosine < 0.9) {
+            double y[3];
+            widen(a.y, y);
+            test_that(fabs(dot(y, n)) < 1e-6, "the narrow axis lies in the surface", inputs, 7);
+            widen(b.y, y);
+            test_that(fabs(dot(y, n)) < 1e-5, "also of the anisotropic form", inputs, 7);
+        }
+    }
+    test_report(&bound);
+    test_report(&round);
+    test_report(&same);
+}
+
+static void half_vector(const double wi[3], const double w[3], double h[3]) {
+    int k;
+    for (k = 0; k < 3; k++) h[k] = wi[k] + w[k];
+    normalize(h);
+}
+
+/* Near the peak the exponent is that of the normal distribution at the half vector. */
+static void ggx_curvature(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_ggx_lobe_aniso", "curvature");
+    test_rng rng = {113};
+    int i;
+    for (i = 0; i < 20000; i++) {
+        const double n[3] = {0, 0, 1};
+        double wi[3], z[3], w[3], h[3], t[3], b[3], inputs[5], wanted, got, turn = 7 * test_uniform(&rng);
+        double ax = test_log_uniform(&rng, 0.01, 1), ay = test_log_uniform(&rng, 0.01, 1), x, y;
+        asg_lobe a;
+        exact_asg exact;
+        direction_near(&rng, n, acos(0.1 + 0.9 * test_uniform(&rng)), wi);
+        widen(narrow(wi), wi);
+        normalize(wi);
+        t[0] = cos(turn);
+        t[1] = sin(turn);
+        t[2] = 0;
+        cross(n, t, b);
+        if (i % 4 == 0) ay = ax;
+        a = asg_ggx_lobe_aniso(narrow(n), narrow(t), narrow(wi), (float)ax, (float)ay);
+        if (i % 4 == 0) a = asg_ggx_lobe(narrow(n), narrow(wi), (float)ax);
+        exact = exact_of(a);
+        z[0] = -wi[0];
+        z[1] = -wi[1];
+        z[2] = wi[2];
+        direction_near(&rng, z, 1e-3 * wi[2], w);
+        half_vector(wi, w, h);
+        x = dot(h, t) / ax;
+        y = dot(h, b) / ay;
+        wanted = x * x + y * y;
+        x = dot(w, exact.x);
+        y = dot(w, exact.y);
+        got = exact.lx * x * x + exact.ly * y * y;
+        inputs[0] = ax;
+        inputs[1] = ay;
+        inputs[2] = turn;
+        inputs[3] = wi[2];
+        inputs[4] = wi[0];
+        /* relative to the sharper axis's share: the wide one alone is second order where they differ much */
+        test_within(&bound, got, wanted, wanted + 1e-3 * exact.ly * 1e-6 * wi[2] * wi[2], inputs, 5);
+    }
+    test_report(&bound);
+}
+
+typedef struct {
+    double wi[3], alpha;
+} ggx_context;
+
+/* GGX over its peak at the half vector of w; the normal is z. */
+static double ggx_value(const double w[3], const void *context) {
+    const ggx_context *g = (const ggx_context *)context;
+    double h[3], t2;
+    half_vector(g->wi, w, h);
+    t2 = (1 - h[2] * h[2]) / (g->alpha * g->alpha);
+    return h[2] > 0 ? pow(h[2] * h[2] + t2, -2) : 0;
+}
+
+static void ggx_model(void) {
+    test_bound integral = test_bound_of("asg.h", "asg_ggx_lobe", "integral");
+    test_bound value = test_bound_of("asg.h", "asg_ggx_lobe", "value");
+    test_rng rng = {114};
+    int i, k;
+    for (i = 0; i < 40; i++) {
+        const double n[3] = {0, 0, 1};
+        ggx_context context;
+        double inputs[2], z[3], wanted;
+        asg_lobe a;
+        context.alpha = inputs[0] = test_log_uniform(&rng, integral.low, integral.high);
+        inputs[1] = 0.4 + 0.6 * test_uniform(&rng);
+        direction_near(&rng, n, acos(inputs[1]), context.wi);
+        a = asg_ggx_lobe(narrow(n), narrow(context.wi), (float)context.alpha);
+        widen(a.z, z);
+        normalize(z);
+        wanted = reference_sphere(ggx_value, &context, z, 1 / (context.alpha * context.alpha));
+        test_within(&integral, (double)asg_integral(a), wanted, wanted, inputs, 2);
+        for (k = 0; k < 500; k++) {
+            double w[3];
+            direction_near(&rng, z, fmin(context.alpha * test_log_uniform(&rng, 0.1, 30), 3), w);
+            test_within(&value, (double)asg_eval(a, narrow(w)), ggx_value(w, &context), 1, inputs, 2);
+        }
+    }
+    test_report(&integral);
+    test_report(&value);
+}
+
+/* ---- virtual spherical Gaussian lights ---- */
+
+static double smith(double alpha, double ci, double co) {
+    double a2 = alpha * alpha;
+    return 0.5 / (co * sqrt(a2 + (1 - a2) * ci * ci) + ci * sqrt(a2 + (1 - a2) * co * co));
+}
+
+typedef struct {
+    vsgl light;
+    asg_lobe lobe;
+    double point[3], normal[3], wi[3], alpha;
+} shading;
+
+/* A light above a surface, roughly where the surface mirrors the viewer. */
+static shading make_shading(test_rng *rng, double distance, double variance, double alpha, double spread) {
+    shading s;
+    double position[3], mirror[3], toward[3], emission[3];
+    int k;
+    test_direction(rng, s.normal);
+    widen(narrow(s.normal), s.normal);
+    direction_near(rng, s.normal, acos(0.3 + 0.7 * test_uniform(rng)), s.wi);
+    widen(narrow(s.wi), s.wi);
+    s.alpha = (double)(float)alpha;
+    for (k = 0; k < 3; k++) mirror[k] = 2 * dot(s.normal, s.wi) * s.normal[k] - s.wi[k];
+    normalize(mirror);
+    direction_near(rng, mirror, spread * alpha * test_uniform(rng), toward);
+    for (k = 0; k < 3; k++) {
+        s.point[k] = 0;
+        position[k] = distance * toward[k];
+        emission[k] = -toward[k];
+    }
+    direction_near(rng, emission, 0.5 * test_uniform(rng), emission);
+    s.light.position = narrow(position);
+    s.light.variance = (float)variance;
+    for (k = 0; k < 2; k++) {
+        s.light.emission[k] = sg_around(emission, test_log_uniform(rng, 0.5, 50));
+        s.light.intensity[k] = lobe_vector(1, 1, 1);
+    }
+    s.lobe = asg_ggx_lobe(narrow(s.normal), narrow(s.wi), (float)s.alpha);
+    return s;
+}
+
+static float shade(const shading *s) {
+    return asg_vsgl_specular(s->light, VSGL_SPECULAR, narrow(s->point), narrow(s->normal), narrow(s->wi),
+                             (float)s->alpha, s->lobe);
+}
+
+/* The factors of the incoming lobe in double: sharpness, axis and log of the peak without inverse_variance / (2 pi). */
+static double incoming(const shading *s, double axis[3], double *log_peak, double *inverse_variance) {
+    double offset[3], emission[3], extent, sharpness = (double)s->light.emission[VSGL_SPECULAR].sharpness,
+                                           size, chord = 0;
+    int k;
+    widen(s->light.position, offset);
+    widen(s->light.emission[VSGL_SPECULAR].axis, emission);
+    normalize(emission);
+    for (k = 0; k < 3; k++) offset[k] -= s->point[k];
+    *inverse_variance = 1 / fmax((double)s->light.variance, 1e-20);
+    extent = dot(offset, offset) * *inverse_variance;
+    normalize(offset);
+    for (k = 0; k < 3; k++) {
+        axis[k] = extent * offset[k] - sharpness * emission[k];
+        chord += pow(offset[k] + emission[k], 2);
+    }
+    size = sqrt(dot(axis, axis));
+    *log_peak = -extent * sharpness * chord / (size + extent + sharpness);
+    normalize(axis);
+    return size;
+}
+
+/* Section 4.2 of 000 in double. */
+static double shade_exactly(const shading *s, double *exponent, double *cosine) {
+    exact_asg a = exact_of(s->lobe);
+    double axis[3], log_peak, inverse_variance, nu = 0.5 * incoming(s, axis, &log_peak, &inverse_variance),
+                                                co, x, y;
+    x = dot(axis, a.x);
+    y = dot(axis, a.y);
+    co = fmax(dot(axis, s->normal), 0);
+    *cosine = fmin(co, dot(axis, a.z));
+    *exponent = log_peak - a.lx * nu / (a.lx + nu) * x * x - a.ly * nu / (a.ly + nu) * y * y;
+    return exp(*exponent) * 0.5 * inverse_variance / sqrt((a.lx + nu) * (a.ly + nu)) *
+           fmax(dot(axis, a.z), 0) * co * smith(s->alpha, dot(s->wi, s->normal), co) /
+           (REFERENCE_PI * s->alpha * s->alpha);
+}
+
+static void specular_rounds(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_vsgl_specular", "directional");
+    test_rng rng = {115};
+    int i;
+    for (i = 0; i < 50000; i++) {
+        double inputs[3], wanted, exponent, co, distance = test_log_uniform(&rng, 1e-3, 1e4);
+        double variance = i % 3 ? test_log_uniform(&rng, 1e-20, 1e6) : 0,
+               alpha = test_log_uniform(&rng, 0.01, 1);
+        shading s = make_shading(&rng, distance, variance, alpha, i % 2 ? 1 : 3);
+        inputs[0] = distance;
+        inputs[1] = variance;
+        inputs[2] = alpha;
+        wanted = shade_exactly(&s, &exponent, &co);
+        if (exponent < -70 || co < 0.1 || wanted < 1e-36) continue;
+        test_within(&bound, (double)shade(&s), wanted,
+                    wanted * directional((double)fmaxf(s.lobe.sharpness_x, s.lobe.sharpness_y), exponent),
+                    inputs, 3);
+    }
+    test_report(&bound);
+}
+
+static void specular_point_light(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_vsgl_specular", "rel");
+    test_rng rng = {116};
+    int i;
+    for (i = 0; i < 20000; i++) {
+        double distance = test_log_uniform(&rng, 1e-3, 1e4), alpha = test_log_uniform(&rng, 0.1, 1),
+               inputs[3], wanted;
+        double toward[3], emission[3], co, variance = i % 2 ? 0 : 1e-9 * distance * distance;
+        shading s = make_shading(&rng, distance, variance, alpha, 1);
+        exact_asg a = exact_of(s.lobe);
+        sg_lobe light = s.light.emission[VSGL_SPECULAR];
+        widen(s.light.position, toward);
+        widen(light.axis, emission);
+        normalize(emission);
+        distance = sqrt(dot(toward, toward));
+        normalize(toward);
+        co = dot(toward, s.normal);
+        if (fmin(co, dot(toward, a.z)) < 0.1) continue;
+        wanted = exp((double)light.sharpness * (-dot(toward, emission) - 1)) / (distance * distance) *
+                 exact_eval(&a, toward) * co * smith(s.alpha, dot(s.wi, s.normal), co) /
+                 (REFERENCE_PI * s.alpha * s.alpha);
+        inputs[0] = distance;
+        inputs[1] = variance;
+        inputs[2] = alpha;
+        test_within(&bound, (double)shade(&s), wanted, wanted, inputs, 3);
+    }
+    test_report(&bound);
+}
+
+typedef struct {
+    const shading *s;
+    exact_asg lobe;
+    double axis[3], sharpness;
+} specular_context;
+
+static double specular_value(const double w[3], const void *context) {
+    const specular_context *c = (const specular_context *)context;
+    double co = dot(w, c->s->normal);
+    return co > 0 ? exp(c->sharpness * (dot(w, c->axis) - 1)) * exact_eval(&c->lobe, w) * co *
+                        smith(c->s->alpha, dot(c->s->wi, c->s->normal), co)
+                  : 0;
+}
+
+static void specular_matches_quadrature(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_vsgl_specular", "model");
+    test_rng rng = {117};
+    int i;
+    for (i = 0; i < 60; i++) {
+        double distance = 1 + 2 * test_uniform(&rng), inputs[3], wanted, log_peak, inverse_variance;
+        specular_context c;
+        shading s;
+        inputs[0] = distance;
+        inputs[1] = test_log_uniform(&rng, 1e-4, 1e-2) * distance * distance;
+        inputs[2] = test_log_uniform(&rng, bound.low, bound.high);
+        s = make_shading(&rng, distance, inputs[1], inputs[2], 1);
+        c.s = &s;
+        c.lobe = exact_of(s.lobe);
+        c.sharpness = incoming(&s, c.axis, &log_peak, &inverse_variance);
+        if (dot(c.axis, s.normal) < 0.2) continue;
+        wanted = reference_sphere(specular_value, &c, c.axis, c.sharpness) * exp(log_peak) *
+                 inverse_variance / (2 * REFERENCE_PI * REFERENCE_PI * s.alpha * s.alpha);
+        test_within(&bound, (double)shade(&s), wanted, wanted, inputs, 3);
+    }
+    test_report(&bound);
+}
+
+/* ---- finite in, finite out ---- */
+
+/* 0, or a size between 1e-30 and a limit of either sign. */
+static float wild(test_rng *rng, double limit) {
+    double sign = test_uniform(rng) < 0.5 ? -1 : 1;
+    return test_uniform(rng) < 0.1 ? 0.0f : (float)(sign * test_log_uniform(rng, 1e-30, limit));
+}
+
+static lobe_vec3 wild_direction(test_rng *rng) {
+    static const double corner[6][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+    double v[3];
+    if (test_uniform(rng) < 0.3) return narrow(corner[(int)(6 * test_uniform(rng))]);
+    test_direction(rng, v);
+    if (test_uniform(rng) < 0.1) v[2] = 1e-8 * v[2];
+    normalize(v);
+    return narrow(v);
+}
+
+static asg_lobe wild_lobe(test_rng *rng) {
+    double z[3];
+    asg_lobe a;
+    widen(wild_direction(rng), z);
+    normalize(z);
+    a = lobe_around(z, test_uniform(rng) < 0.3 ? 0 : 7 * test_uniform(rng), fabs((double)wild(rng, 1e30)),
+                    fabs((double)wild(rng, 1e30)));
+    if (test_uniform(rng) < 0.2) a.sharpness_y = a.sharpness_x;
+    a.log_amplitude = wild(rng, 1e30);
+    return a;
+}
+
+static int finite_value(float value) { /* by its bits: the suite also runs with -ffast-math */
+    unsigned bits;
+    memcpy(&bits, &value, sizeof bits);
+    return (bits & 0x7F800000u) != 0x7F800000u;
+}
+
+static int finite_lobe(asg_lobe a) {
+    return finite_value(a.x.x) && finite_value(a.x.y) && finite_value(a.x.z) && finite_value(a.y.x) &&
+           finite_value(a.y.y) && finite_value(a.y.z) && finite_value(a.z.x) && finite_value(a.z.y) &&
+           finite_value(a.z.z) && finite_value(a.sharpness_x) && finite_value(a.sharpness_y) &&
+           finite_value(a.log_amplitude);
+}
+
+static void finite_everywhere(void) {
+    test_rng rng = {118};
+    int i, k;
+    for (i = 0; i < 200000; i++) {
+        asg_lobe a = wild_lobe(&rng), b = test_uniform(&rng) < 0.1 ? a : wild_lobe(&rng);
+        lobe_vec3 n = wild_direction(&rng), w = wild_direction(&rng), t = wild_direction(&rng);
+        float alpha_x = fabsf(wild(&rng, 1)), alpha_y = fabsf(wild(&rng, 1)), kappa = fabsf(wild(&rng, 1e30));
+        sg_lobe g;
+        vsgl v;
+        double inputs[12];
+        g.axis = wild_direction(&rng);
+        g.sharpness = fabsf(wild(&rng, 1e30));
+        g.log_amplitude = wild(&rng, 1e30);
+        if (i % 3 == 0) a.z = lobe_scale(n, -1);
+        if (i % 5 == 0) w = n;
+        v.position = lobe_scale(wild_direction(&rng), fabsf(wild(&rng, 5e4)));
+        v.variance = fabsf(wild(&rng, 1e10));
+        for (k = 0; k < 2; k++) {
+            v.emission[k].axis = wild_direction(&rng);
+            v.emission[k].sharpness = fabsf(wild(&rng, 1e30));
+            v.emission[k].log_amplitude = i & 1 ? 0 : wild(&rng, 1e30);
+            v.intensity[k] = n;
+        }
+        inputs[0] = (double)a.sharpness_x;
+        inputs[1] = (double)a.sharpness_y;
+        inputs[2] = (double)b.sharpness_x;
+        inputs[3] = (double)b.sharpness_y;
+        inputs[4] = (double)g.sharpness;
+        inputs[5] = (double)a.log_amplitude;
+        inputs[6] = (double)b.log_amplitude;
+        inputs[7] = (double)g.log_amplitude;
+        inputs[8] = (double)kappa;
+        inputs[9] = (double)alpha_x;
+        inputs[10] = (double)v.variance;
+        inputs[11] = (double)v.position.x;
+        test_that(finite_value(asg_eval(a, w)), "asg_eval is finite", inputs, 12);
+        test_that(finite_value(asg_integral(a)), "asg_integral is finite", inputs, 12);
+        test_that(finite_value(asg_integral_approx(a)), "asg_integral_approx is finite", inputs, 12);
+        test_that(finite_value(asg_sg_integral(a, g)), "asg_sg_integral is finite", inputs, 12);
+        test_that(finite_value(asg_sg_integral_xu(a, g)), "asg_sg_integral_xu is finite", inputs, 12);
+        test_that(finite_value(asg_product_integral(a, b)), "asg_product_integral is finite", inputs, 12);
+        test_that(finite_value(asg_product_integral_xu(a, b)), "asg_product_integral_xu is finite", inputs,
+                  12);
+        test_that(finite_lobe(asg_convolve(a, kappa)), "asg_convolve is finite", inputs, 12);
+        b = asg_ggx_lobe(n, w, alpha_x);
+        test_that(finite_lobe(b), "asg_ggx_lobe is finite", inputs, 12);
+        test_that(finite_lobe(asg_ggx_lobe_aniso(n, t, w, alpha_x, alpha_y)), "asg_ggx_lobe_aniso is finite",
+                  inputs, 12);
+        test_that(finite_value(asg_vsgl_specular(v, i & 1, lobe_scale(t, alpha_x), n, w, alpha_x, b)),
+                  "asg_vsgl_specular is finite", inputs, 12);
+        test_that(finite_value(asg_vsgl_specular(v, i & 1, v.position, n, w, alpha_y, a)),
+                  "asg_vsgl_specular is finite at the light and for any lobe", inputs, 12);
+    }
+}
+
+const test_case asg_tests[] = {
+    {"asg_eval", eval_matches},
+    {"asg_eval_named_cases", eval_named_cases},
+    {"asg_integral", integral_matches},
+    {"asg_quadratures_agree", quadratures_agree},
+    {"asg_sg_integral", sg_integrals_match},
+    {"asg_sg_integral_below_aligned", sg_integrals_stay_below_aligned},
+    {"asg_sg_integral_sharp_limit", sg_integrals_sharp_limit},
+    {"asg_product_integral", products_match},
+    {"asg_product_integral_rounding", products_round},
+    {"asg_weights", weights_are_weights},
+    {"asg_weights_turn_smoothly", weights_turn_smoothly},
+    {"asg_opposed_lobes", opposed_lobes_part},
+    {"asg_convolve", convolve_widens},
+    {"asg_convolve_consistent", convolve_is_consistent},
+    {"asg_convolve_quadrature", convolve_matches_quadrature},
+    {"asg_ggx_frames", ggx_frames},
+    {"asg_ggx_curvature", ggx_curvature},
+    {"asg_ggx_model", ggx_model},
+    {"asg_vsgl_specular_rounding", specular_rounds},
+    {"asg_vsgl_specular_point_light", specular_point_light},
+    {"asg_vsgl_specular_quadrature", specular_matches_quadrature},
+    {"asg_finite", finite_everywhere},
+    {0, 0},
+};

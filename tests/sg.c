@@ -1,0 +1,1184 @@
+/*
+ sg.c - tests of sg.h against closed forms in double with unit-normalised axes; test_closed_forms holds those
+ to quadrature. Everything drawn is recorded, so that a failure prints its input.
+*/
+#include "../sg.h"
+#include "reference.h"
+#include "test.h"
+#include <float.h>
+
+#define PI REFERENCE_PI
+#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
+
+/* ---- the checks, and the input they print ---- */
+
+static test_rng rng;
+static double input[48];
+static int inputs;
+
+static double record(double x) {
+    if (inputs < COUNT(input)) input[inputs++] = x;
+    return x;
+}
+
+static void record_vector(lobe_vec3 v) {
+    record((double)v.x);
+    record((double)v.y);
+    record((double)v.z);
+}
+
+static void within(test_bound *bound, double got, double wanted, double unit) {
+    test_within(bound, got, wanted, unit, input, inputs);
+}
+
+static void that(int condition, const char *what) {
+    test_that(condition, what, input, inputs);
+}
+
+/* A bound that sg.h states in prose only. */
+static test_bound stated(const char *label, double limit) {
+    test_bound bound = {{0}, 0, 0, 0, 0};
+    strncpy(bound.label, label, sizeof bound.label - 1);
+    bound.limit = limit;
+    return bound;
+}
+
+static unsigned bits_of(float x) {
+    unsigned bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static float of_bits(unsigned bits) {
+    float x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+static int finite_bits(float x) { /* isfinite is folded under -ffast-math */
+    return (bits_of(x) & 0x7F800000u) != 0x7F800000u;
+}
+
+static int finite_vector(lobe_vec3 v) {
+    return finite_bits(v.x) && finite_bits(v.y) && finite_bits(v.z);
+}
+
+static int finite_lobe(sg_lobe g) {
+    return finite_vector(g.axis) && finite_bits(g.sharpness) && finite_bits(g.log_amplitude);
+}
+
+/* ---- references ---- */
+
+typedef struct {
+    double x, y, z;
+} vec;
+
+static vec wide(lobe_vec3 v) {
+    vec w;
+    w.x = (double)v.x;
+    w.y = (double)v.y;
+    w.z = (double)v.z;
+    return w;
+}
+
+static lobe_vec3 narrow(vec v) {
+    return lobe_vector((float)v.x, (float)v.y, (float)v.z);
+}
+
+static double dot(vec a, vec b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static double length(vec v) {
+    return sqrt(dot(v, v));
+}
+
+static vec combine(double s, vec a, double t, vec b) {
+    vec v;
+    v.x = s * a.x + t * b.x;
+    v.y = s * a.y + t * b.y;
+    v.z = s * a.z + t * b.z;
+    return v;
+}
+
+static vec unit(vec v) {
+    return combine(1 / length(v), v, 0, v);
+}
+
+static double distance(vec a, vec b) {
+    return length(combine(1, a, -1, b));
+}
+
+static double exact_phi(double x) {
+    return x < 1e-9 ? 1 - x / 2 : -expm1(-x) / x;
+}
+
+static double exact_integral(double sharpness) {
+    return 4 * PI * exact_phi(2 * sharpness);
+}
+
+static double exact_log_eval(sg_lobe g, vec dir) { /* without the amplitude */
+    double chord = distance(unit(wide(g.axis)), dir);
+    return -0.5 * (double)g.sharpness * chord * chord;
+}
+
+typedef struct {
+    double sum;       /* of the factors' sharpnesses */
+    double sharpness; /* of the product */
+    double log_loss;  /* what the misalignment costs */
+    vec axis;
+} exact_product;
+
+static exact_product multiply(double la, vec a, double lb, vec b) {
+    exact_product p;
+    double chord = distance(a, b);
+    vec m = combine(la, a, lb, b);
+    p.sum = la + lb;
+    p.sharpness = length(m);
+    p.log_loss = p.sum > 0 ? -la * chord * chord * (lb / (p.sharpness + p.sum)) : 0;
+    p.axis = p.sharpness > 0 ? unit(m) : a;
+    return p;
+}
+
+static exact_product multiply_lobes(sg_lobe a, sg_lobe b) {
+    return multiply((double)a.sharpness, unit(wide(a.axis)), (double)b.sharpness, unit(wide(b.axis)));
+}
+
+/* The unit of a value aligned * exp(log_loss) whose exponent has terms of the given size. Results below the
+   smallest normal float may be flushed. */
+static double conditioned(double aligned, double log_loss, double size) {
+    return aligned * (exp(log_loss) * (1 + size) * TEST_EPSILON + (double)FLT_MIN) + (double)FLT_MIN;
+}
+
+/* Integral over the circle at angle theta around an axis whose cosine with the normal is c, of max(cos, 0). */
+static double clamped_cosine_ring(double theta, double c) {
+    double a = cos(theta) * c, b = sin(theta) * sqrt(1 - c * c), half;
+    if (a >= b) return 2 * PI * a;
+    if (a <= -b) return 0;
+    half = acos(-a / b);
+    return 2 * (a * half + b * sin(half));
+}
+
+/* Integral of a unit SG times the clamped cosine, over the SG's integral; panels end where the ring has kinks. */
+static double exact_cosine(double sharpness, double cosine) {
+    static reference_gauss rule;
+    double c = fmin(1, fmax(-1, cosine)), kink = fabs(asin(c)), ends[4] = {0, 0, 0, PI}, whole = 0;
+    double last = 2 * asin(sqrt(fmin(1, 25 / (sharpness + 1e-9)))), width = 1.5 / sqrt(1 + sharpness);
+    int segment, i;
+    if (rule.weight[0] == 0) rule = reference_gauss_rule();
+    ends[1] = kink;
+    ends[2] = PI - kink;
+    for (segment = 0; segment < 3; segment++) {
+        double from = ends[segment], end = fmin(ends[segment + 1], last), to;
+        for (; from < end; from = to) {
+            to = fmin(from + width, end);
+            for (i = 0; i < REFERENCE_GAUSS_COUNT; i++) {
+                double theta = from + (to - from) * 0.5 * (1 + rule.node[i]), s = sin(theta / 2);
+                whole += 0.5 * (to - from) * rule.weight[i] * exp(-2 * sharpness * s * s) * sin(theta) *
+                         clamped_cosine_ring(theta, c);
+            }
+        }
+    }
+    return whole / exact_integral(sharpness);
+}
+
+/* ---- input ---- */
+
+static void begin(void) {
+    inputs = 0;
+}
+
+static double uniform(double low, double high) {
+    return record(low + (high - low) * test_uniform(&rng));
+}
+
+static int pick(int count) {
+    return (int)(count * test_uniform(&rng));
+}
+
+static double log_uniform(double low, double high) {
+    return record((double)(float)test_log_uniform(&rng, low, high));
+}
+
+static vec random_direction(void) {
+    double d[3];
+    vec v;
+    test_direction(&rng, d);
+    v.x = d[0];
+    v.y = d[1];
+    v.z = d[2];
+    return v;
+}
+
+/* A float direction whose length is within 1e-7 of 1 before it is rounded. */
+static lobe_vec3 nearly_unit(vec v) {
+    lobe_vec3 w = narrow(combine((1 + 1e-7 * (2 * test_uniform(&rng) - 1)) / length(v), v, 0, v));
+    record_vector(w);
+    return w;
+}
+
+static vec turned(vec a, double angle) {
+    vec t = random_direction();
+    t = unit(combine(1, t, -dot(t, a), a));
+    return combine(cos(angle), a, sin(angle), t);
+}
+
+static lobe_vec3 random_axis(void) {
+    return nearly_unit(random_direction());
+}
+
+/* An axis at one of the interesting angles from another: 0, pi, any, 1e-7, on the flank of a lobe of that sharpness,
+   near 0, near pi. */
+static lobe_vec3 companion(lobe_vec3 axis, double sharpness) {
+    double angle = test_log_uniform(&rng, 1e-8, 1);
+    int kind = pick(7);
+    if (kind < 2) {
+        record_vector(lobe_scale(axis, kind ? -1 : 1));
+        return lobe_scale(axis, kind ? -1 : 1);
+    }
+    if (kind == 2) return random_axis();
+    if (kind == 3) angle = 1e-7;
+    if (kind == 4) angle = fmin(PI, test_log_uniform(&rng, 0.1, 20) / sqrt(sharpness + 0.1));
+    return nearly_unit(turned(unit(wide(axis)), kind == 5 ? PI - angle : angle));
+}
+
+static sg_lobe lobe_of(lobe_vec3 axis, double sharpness, double log_amplitude) {
+    sg_lobe g;
+    g.axis = axis;
+    g.sharpness = (float)sharpness;
+    g.log_amplitude = (float)log_amplitude;
+    return g;
+}
+
+/* Two lobes; in half of the draws the sharpnesses are (nearly) the same, the hard case when opposed. */
+static void draw_pair(double low, double high, sg_lobe *a, sg_lobe *b) {
+    double la, lb;
+    int kind = pick(4);
+    begin();
+    la = log_uniform(low, high);
+    lb = log_uniform(low, high);
+    if (kind == 0) lb = record(la);
+    if (kind == 1) lb = record((double)(float)fmin(high, la * (1 + test_log_uniform(&rng, 1e-7, 1))));
+    *a = lobe_of(random_axis(), la, 0);
+    *b = lobe_of(companion(a->axis, fmin(la, lb)), lb, 0);
+}
+
+/* ---- primitives ---- */
+
+static void check_exp2(test_bound *bound, float x) {
+    double wanted = fmin(exp2((double)x), exp2((double)127.4f));
+    begin();
+    record((double)x);
+    if (x < -126.5f)
+        that(lobe_exp2(x) == 0, "2^x is 0 below -126.5");
+    else
+        within(bound, (double)lobe_exp2(x), wanted, wanted + (x < -126 ? 1e7 * (double)FLT_MIN : 0));
+}
+
+static void test_exp2(void) {
+    test_bound bound = stated("lobe_exp2 rel", 1.1e-7);
+    unsigned bits;
+    int i;
+    for (bits = 0; bits < 0x7F800000u; bits += 20011) {
+        check_exp2(&bound, of_bits(bits));
+        check_exp2(&bound, -of_bits(bits));
+    }
+    check_exp2(&bound, FLT_MAX);
+    check_exp2(&bound, -FLT_MAX);
+    for (i = -2 * 126; i < 2 * 128; i++) { /* where the integer part changes */
+        float edge = 0.5f * (float)i;
+        check_exp2(&bound, edge);
+        check_exp2(&bound, edge * (1 + FLT_EPSILON));
+        check_exp2(&bound, edge * (1 - FLT_EPSILON));
+    }
+    for (i = 0; i < 100000; i++) check_exp2(&bound, (float)(-127 + 255 * test_uniform(&rng)));
+    test_report(&bound);
+}
+
+static void test_phi(void) {
+    test_bound bound = stated("lobe_phi rel", 2.5e-7);
+    unsigned bits, step;
+    for (bits = 0; bits < 0x7F800000u; bits += step) {
+        double x = (double)of_bits(bits), wanted = exact_phi(x);
+        step = x > 0.01 && x < 128 ? 509 : 20011;
+        begin();
+        record(x);
+        within(&bound, (double)lobe_phi(of_bits(bits)), wanted, wanted + 1e7 * (double)FLT_MIN);
+    }
+    begin();
+    that(lobe_phi(0) == 1, "phi(0) is 1");
+    that(lobe_phi(FLT_MAX) < FLT_MIN, "phi vanishes at infinity");
+    test_report(&bound);
+}
+
+static void test_vectors(void) {
+    test_bound bound = stated("lobe_normalize_or rel", 3e-7);
+    int i;
+    for (i = 0; i < 20000; i++) {
+        vec v = random_direction();
+        double size;
+        begin();
+        size = log_uniform(1e-29, 1e37);
+        within(&bound,
+               distance(wide(lobe_normalize_or(narrow(combine(size, v, 0, v)), lobe_vector(0, 0, 0))), v), 0,
+               1);
+    }
+    that(lobe_normalize_or(lobe_vector(0, 0, 0), lobe_vector(0, 1, 0)).y == 1,
+         "the fallback of a null vector");
+    for (i = 0; i < 1000; i++) {
+        vec a = random_direction(), b = random_direction(), c = wide(lobe_cross(narrow(a), narrow(b))),
+            wanted;
+        begin();
+        wanted.x = a.y * b.z - a.z * b.y;
+        wanted.y = a.z * b.x - a.x * b.z;
+        wanted.z = a.x * b.y - a.y * b.x;
+        within(&bound, distance(c, wanted), 0, 1);
+    }
+    test_report(&bound);
+}
+
+/* ---- the references themselves ---- */
+
+typedef struct {
+    sg_lobe a, b;
+    vec normal;
+} integrand;
+
+static vec vec_of(const double w[3]) {
+    vec v;
+    v.x = w[0];
+    v.y = w[1];
+    v.z = w[2];
+    return v;
+}
+
+static double product_of_lobes(const double w[3], const void *context) {
+    const integrand *f = (const integrand *)context;
+    return exp(exact_log_eval(f->a, vec_of(w)) + exact_log_eval(f->b, vec_of(w)));
+}
+
+static double lobe_times_cosine(const double w[3], const void *context) {
+    const integrand *f = (const integrand *)context;
+    return exp(exact_log_eval(f->a, vec_of(w))) * fmax(0, dot(f->normal, vec_of(w)));
+}
+
+static void test_closed_forms(void) {
+    test_bound product = stated("closed form of the product integral", 1e-8);
+    test_bound cosine = stated("quadrature of the clamped cosine", 5e-5);
+    test_bound identity = stated("f(c) - f(-c)", 1e-7);
+    int i;
+    for (i = 0; i < 60; i++) {
+        integrand f;
+        exact_product p;
+        double axis[3], wanted;
+        draw_pair(1e-3, 1e5, &f.a, &f.b);
+        p = multiply_lobes(f.a, f.b);
+        if (p.log_loss < -80) continue;
+        axis[0] = p.axis.x;
+        axis[1] = p.axis.y;
+        axis[2] = p.axis.z;
+        wanted = exp(p.log_loss) * exact_integral(p.sharpness);
+        within(&product, reference_sphere(product_of_lobes, &f, axis, p.sharpness), wanted, wanted);
+    }
+    for (i = 0; i < 3; i++) {
+        integrand f;
+        double axis[3], l;
+        begin();
+        l = log_uniform(0.1, 30);
+        f.normal = unit(wide(random_axis()));
+        f.a = lobe_of(nearly_unit(turned(f.normal, 0.4 + 0.8 * i)), l, 0);
+        axis[0] = (double)f.a.axis.x;
+        axis[1] = (double)f.a.axis.y;
+        axis[2] = (double)f.a.axis.z;
+        within(&cosine, exact_cosine(l, dot(f.normal, unit(wide(f.a.axis)))) * exact_integral(l),
+               reference_sphere_azimuth(lobe_times_cosine, &f, axis, l, 512), 1);
+    }
+    for (i = 0; i < 500; i++) {
+        double l, c;
+        begin();
+        l = log_uniform(0.1, 1e6);
+        c = uniform(0, 1);
+        within(&identity, exact_cosine(l, c) - exact_cosine(l, -c), c * (1 / tanh(l) - 1 / l), 1);
+    }
+    test_report(&product);
+    test_report(&cosine);
+    test_report(&identity);
+}
+
+/* ---- spherical Gaussians ---- */
+
+static void test_eval(void) {
+    test_bound bound = test_bound_of("sg.h", "sg_eval", "conditioned");
+    int i;
+    for (i = 0; i < 200000; i++) {
+        sg_lobe g, dir;
+        double ln;
+        draw_pair(bound.low, bound.high, &g, &dir);
+        g.log_amplitude = i % 2 ? (float)uniform(-20, 20) : 0;
+        ln = (double)g.log_amplitude + exact_log_eval(g, unit(wide(dir.axis)));
+        within(&bound, (double)sg_eval(g, dir.axis), exp(ln),
+               conditioned(1, ln, fabs((double)g.log_amplitude) + fabs(ln - (double)g.log_amplitude)));
+    }
+    test_report(&bound);
+}
+
+static void test_integral(void) {
+    test_bound bound = test_bound_of("sg.h", "sg_integral", "rel");
+    unsigned bits;
+    for (bits = bits_of((float)bound.low); bits <= bits_of((float)bound.high); bits += 16381) {
+        double wanted = exact_integral((double)of_bits(bits));
+        begin();
+        record((double)of_bits(bits));
+        within(&bound, (double)sg_integral(of_bits(bits)), wanted, wanted);
+    }
+    within(&bound, (double)sg_integral(0), 4 * PI, 4 * PI);
+    test_report(&bound);
+}
+
+static void test_normalize(void) {
+    test_bound bound = test_bound_of("sg.h", "sg_normalize", "rel");
+    int i;
+    for (i = 0; i < 50000; i++) {
+        sg_lobe g, n;
+        begin();
+        g = lobe_of(random_axis(), log_uniform(bound.low, bound.high), uniform(-50, 50));
+        n = sg_normalize(g);
+        within(&bound, exp((double)n.log_amplitude) * exact_integral((double)g.sharpness), 1, 1);
+        that(!memcmp(&n.axis, &g.axis, sizeof n.axis) && n.sharpness == g.sharpness,
+             "normalising keeps the shape");
+    }
+    test_report(&bound);
+}
+
+static void test_product(void) {
+    test_bound peak = test_bound_of("sg.h", "sg_product", "conditioned");
+    test_bound sharpness = stated("sg_product sharpness, of the sum", 8);
+    test_bound axis = stated("sg_product axis, times sharpness over the sum", 8);
+    int i;
+    for (i = 0; i < 200000; i++) {
+        sg_lobe a, b, g;
+        exact_product p;
+        double ln;
+        draw_pair(peak.low, peak.high, &a, &b);
+        a.log_amplitude = (float)uniform(-10, 10);
+        b.log_amplitude = (float)uniform(-10, 10);
+        g = sg_product(a, b);
+        p = multiply_lobes(a, b);
+        ln = (double)a.log_amplitude + (double)b.log_amplitude + p.log_loss;
+        within(
+            &peak, exp((double)g.log_amplitude), exp(ln),
+            conditioned(1, ln, fabs((double)a.log_amplitude) + fabs((double)b.log_amplitude) - p.log_loss));
+        within(&sharpness, (double)g.sharpness, p.sharpness, p.sum * TEST_EPSILON);
+        if (p.sharpness > 1e-5 * p.sum)
+            within(&axis, distance(unit(wide(g.axis)), p.axis), 0, p.sum / p.sharpness * TEST_EPSILON);
+        if (a.sharpness == b.sharpness && lobe_add(a.axis, b.axis).x == 0 &&
+            lobe_add(a.axis, b.axis).y == 0 && lobe_add(a.axis, b.axis).z == 0)
+            that(g.sharpness == 0 && !memcmp(&g.axis, &a.axis, sizeof g.axis), "equal lobes opposed");
+    }
+    test_report(&peak);
+    test_report(&sharpness);
+    test_report(&axis);
+}
+
+/* The values themselves, on the flanks of product lobes that a float axis can still point at. */
+static void test_product_values(void) {
+    test_bound bound = test_bound_of("sg.h", "sg_product", "conditioned");
+    int i;
+    for (i = 0; i < 100000; i++) {
+        sg_lobe a, b, g;
+        vec w;
+        double ln, got;
+        draw_pair(bound.low, bound.high, &a, &b);
+        g = sg_product(a, b);
+        w = unit(wide(g.axis));
+        if (i % 2) w = turned(w, fmin(PI, test_log_uniform(&rng, 0.01, 3) / sqrt((double)g.sharpness + 0.1)));
+        ln = exact_log_eval(a, w) + exact_log_eval(b, w);
+        got = exp((double)g.log_amplitude + exact_log_eval(g, w));
+        record_vector(narrow(w));
+        within(&bound, got, exp(ln),
+               conditioned(1, ln, (double)g.sharpness * (distance(w, unit(wide(g.axis))) + 1e-7) - ln));
+    }
+    test_report(&bound);
+}
+
+static void test_product_integral(void) {
+    test_bound exact = test_bound_of("sg.h", "sg_product_integral", "conditioned");
+    test_bound approx = test_bound_of("sg.h", "sg_product_integral_approx", "conditioned");
+    int i;
+    for (i = 0; i < 200000; i++) {
+        sg_lobe a, b;
+        exact_product p;
+        double aligned, chord, loss, amplitude;
+        draw_pair(exact.low, exact.high, &a, &b);
+        if (i % 2) a.log_amplitude = (float)uniform(-10, 0), b.log_amplitude = (float)uniform(-10, 0);
+        amplitude = (double)a.log_amplitude + (double)b.log_amplitude;
+        p = multiply_lobes(a, b);
+        aligned = exact_integral(p.sharpness);
+        within(&exact, (double)sg_product_integral(a, b), aligned * exp(amplitude + p.log_loss),
+               conditioned(aligned, amplitude + p.log_loss, -amplitude - p.log_loss));
+        chord = distance(unit(wide(a.axis)), unit(wide(b.axis)));
+        loss = -0.5 * chord * chord * (double)a.sharpness * ((double)b.sharpness / p.sum);
+        aligned = 2 * PI / p.sum;
+        within(&approx, (double)sg_product_integral_approx(a, b), aligned * exp(amplitude + loss),
+               conditioned(aligned, amplitude + loss, -amplitude - loss));
+    }
+    test_report(&exact);
+    test_report(&approx);
+}
+
+/* Aligned lobes up to the sharpness that stays finite, where a product of two sharpnesses would not. */
+static void test_aligned(void) {
+    test_bound bound = stated("aligned lobes rel", 1e-6);
+    int i;
+    for (i = 0; i < 20000; i++) {
+        sg_lobe a, b, g;
+        double sum;
+        begin();
+        a = lobe_of(random_axis(), log_uniform(1e-25, 1e30), 0);
+        b = lobe_of(a.axis, pick(2) ? log_uniform(1e-25, 1e30) : (double)a.sharpness, 0);
+        sum = (double)a.sharpness + (double)b.sharpness;
+        g = sg_product(a, b);
+        that(g.log_amplitude == 0 && sg_eval(a, a.axis) == 1, "aligned lobes lose nothing");
+        within(&bound, (double)g.sharpness, sum, sum);
+        within(&bound, (double)sg_product_integral(a, b), exact_integral(sum), exact_integral(sum));
+        within(&bound, (double)sg_product_integral_approx(a, b), 2 * PI / sum, 2 * PI / sum);
+    }
+    test_report(&bound);
+}
+
+static void test_product_integral_approx_model(void) {
+    test_bound bound = test_bound_of("sg.h", "sg_product_integral_approx", "model");
+    int i;
+    for (i = 0; i < 100000; i++) {
+        sg_lobe a, b;
+        exact_product p;
+        double aligned;
+        draw_pair(bound.low, bound.high, &a, &b);
+        p = multiply_lobes(a, b);
+        aligned = exact_integral(p.sum);
+        within(&bound, (double)sg_product_integral_approx(a, b),
+               exp(p.log_loss) * exact_integral(p.sharpness), aligned);
+    }
+    for (i = 0; i < 1000; i++) { /* aligned; the sums where exp(-2 sum) stands clear of rounding */
+        sg_lobe a = lobe_of(lobe_vector(0, 0, 1), 0, 0), b = a;
+        double sum, error;
+        begin();
+        sum = log_uniform(0.01, 6);
+        a.sharpness = b.sharpness = (float)(sum / 2);
+        error = (double)sg_product_integral_approx(a, b) / exact_integral(sum) - 1;
+        that(error < 1.00001 / expm1(2 * sum) + 1e-6, "Iwasaki's form for aligned axes");
+    }
+    test_report(&bound);
+}
+
+static void test_convolve(void) {
+    test_bound bound = test_bound_of("sg.h", "sg_convolve", "rel");
+    test_bound amplitude = stated("sg_convolve amplitude", 4);
+    const volatile unsigned infinity = 0x7F800000u; /* hidden from -ffast-math */
+    int i;
+    for (i = 0; i < 50000; i++) {
+        sg_lobe g, h;
+        double kappa, factor;
+        begin();
+        g = lobe_of(random_axis(), log_uniform(bound.low, bound.high), 0);
+        kappa = log_uniform(bound.low, bound.high);
+        h = sg_convolve(g, (float)kappa);
+        factor = 1 / (1 + (double)g.sharpness / kappa);
+        within(&bound, (double)h.sharpness, (double)g.sharpness * factor, (double)g.sharpness * factor);
+        within(&amplitude, (double)h.log_amplitude, log(factor), TEST_EPSILON * (1 - log(factor)));
+        that(!memcmp(&h.axis, &g.axis, sizeof h.axis), "convolving keeps the axis");
+        h = sg_convolve(g, of_bits(infinity));
+        that(h.sharpness == g.sharpness && h.log_amplitude == g.log_amplitude, "an infinitely sharp kernel");
+    }
+    test_report(&bound);
+    test_report(&amplitude);
+}
+
+static void check_cosine(test_bound *bound, double l, double angle) {
+    lobe_vec3 normal, axis;
+    double exact;
+    sg_lobe g;
+    float got;
+    normal = random_axis();
+    axis = nearly_unit(turned(unit(wide(normal)), angle));
+    exact = exact_cosine(l, dot(unit(wide(axis)), unit(wide(normal))));
+    g = lobe_of(axis, l, uniform(-1, 1));
+    got = sg_cosine_integral(g, normal);
+    within(bound, (double)got / exact_integral(l) * exp(-(double)g.log_amplitude), exact, 1);
+    that(got >= 0 && (got > 0 || exact * exact_integral(l) < 1e-25), "a cosine integral is positive");
+}
+
+static void test_cosine_integral(void) {
+    test_bound bound = test_bound_of("sg.h", "sg_cosine_integral", "abs");
+    int i;
+    for (i = 0; i < 20000; i++) {
+        double l, flank;
+        begin();
+        l = log_uniform(bound.low, bound.high);
+        flank = PI / 2 + uniform(-4, 4) / sqrt(1 + l); /* where the lobe crosses the horizon */
+        check_cosine(&bound, l, i % 2 ? fmin(PI, fmax(0, flank)) : uniform(0, PI));
+    }
+    for (i = 0; i <= 200; i++) {
+        double angle;
+        begin();
+        angle = record(PI * i / 200);
+        check_cosine(&bound, 0, angle);
+        check_cosine(&bound, 1e-30, angle);
+        check_cosine(&bound, 1e10, angle);
+    }
+    for (i = 0; i < 20000; i++) { /* beyond the stated range */
+        begin();
+        check_cosine(&bound, i % 2 ? log_uniform(1e-12, 1e-3) : log_uniform(1e6, 1e30), uniform(0, PI));
+    }
+    test_report(&bound);
+}
+
+static void test_toksvig(void) {
+    test_bound mean = test_bound_of("sg.h", "sg_mean_length", "ulp");
+    test_bound model = test_bound_of("sg.h", "sg_mean_length", "model");
+    test_bound inverse = test_bound_of("sg.h", "sg_sharpness_from_mean_length", "ulp");
+    test_bound round_trip = stated("Toksvig round trip", 2);
+    int i;
+    for (i = 0; i < 50000; i++) {
+        double l, wanted, r;
+        begin();
+        l = log_uniform(mean.low, mean.high);
+        wanted = l / (l + 1);
+        within(&mean, (double)sg_mean_length((float)l), wanted, test_ulp(wanted));
+        l = log_uniform(model.low, model.high);
+        wanted = l < 0.01 ? l / 3 - l * l * l / 45 : 1 / tanh(l) - 1 / l;
+        within(&model, (double)sg_mean_length((float)l), wanted, 1);
+        that(l < 10 || fabs((double)sg_mean_length((float)l) - wanted) < 1 / (l * l) + 1e-7, "below 1 / l^2");
+        r = i % 2 ? log_uniform(inverse.low, inverse.high)
+                  : record((double)(1 - (float)log_uniform(6e-8, 1)));
+        if (r < 1)
+            within(&inverse, (double)sg_sharpness_from_mean_length((float)r), r / (1 - r),
+                   test_ulp(r / (1 - r)));
+        l = log_uniform(1e-20, 1e5);
+        within(&round_trip, (double)sg_sharpness_from_mean_length(sg_mean_length((float)l)), l,
+               l * (l + 2) * TEST_EPSILON);
+    }
+    that(sg_sharpness_from_mean_length(1) == 0x1p25f && sg_sharpness_from_mean_length(0) == 0,
+         "Toksvig's ends");
+    that(sg_sharpness_from_mean_length(1.0001f) == 0x1p25f, "a mean length that rounding made too long");
+    test_report(&mean);
+    test_report(&model);
+    test_report(&inverse);
+    test_report(&round_trip);
+}
+
+/* ---- reflection lobes ---- */
+
+static void test_diffuse_lobe(void) {
+    test_bound rel = test_bound_of("sg.h", "sg_diffuse_lobe", "rel");
+    test_bound model = test_bound_of("sg.h", "sg_diffuse_lobe", "model");
+    sg_lobe g = sg_diffuse_lobe(lobe_vector(0, 0, 1));
+    int i;
+    begin();
+    that(g.sharpness == 2 && g.axis.z == 1, "the diffuse lobe has sharpness 2 around the normal");
+    within(&rel, exp((double)g.log_amplitude) * exact_integral(2), 1, 1);
+    for (i = 0; i <= 1000; i++) {
+        double theta = PI * i / 1000;
+        begin();
+        record(theta);
+        within(&model, (double)sg_eval(g, lobe_vector((float)sin(theta), 0, (float)cos(theta))),
+               fmax(0, cos(theta)) / PI, 1);
+    }
+    test_report(&rel);
+    test_report(&model);
+}
+
+static void test_reflection_lobe(void) {
+    test_bound bound = test_bound_of("sg.h", "sg_reflection_lobe", "ulp");
+    test_bound mirror = stated("sg_reflection_lobe axis", 8);
+    int i;
+    for (i = 0; i < 50000; i++) {
+        lobe_vec3 normal, wi;
+        vec n, w;
+        double cosine, half, wanted;
+        sg_lobe g, ggx;
+        begin();
+        normal = random_axis();
+        wi = i % 2 ? random_axis() : nearly_unit(turned(unit(wide(normal)), PI / 2 + uniform(-0.1, 0.1)));
+        half = log_uniform(1e-3, 1e8);
+        n = unit(wide(normal));
+        w = unit(wide(wi));
+        cosine = dot(n, w);
+        wanted = half / (4 * fmax(fabs(cosine), 1e-4));
+        g = sg_reflection_lobe(normal, wi, (float)half);
+        within(&bound, (double)g.sharpness, wanted, test_ulp(wanted) / fmax(fabs(cosine), 1e-4));
+        within(&mirror, distance(wide(g.axis), combine(2 * cosine, n, -1, w)), 0, TEST_EPSILON);
+        that(g.log_amplitude == 0, "a reflection lobe's peak is 1");
+        g = sg_phong_lobe(normal, wi, (float)half);
+        within(&bound, (double)g.sharpness, wanted, test_ulp(wanted) / fmax(fabs(cosine), 1e-4));
+        half = log_uniform(1e-4, 1);
+        wanted = 2 / (half * half) / (4 * fmax(fabs(cosine), 1e-4));
+        ggx = sg_ggx_lobe(normal, wi, (float)half);
+        within(&bound, (double)ggx.sharpness, wanted, test_ulp(wanted) / fmax(fabs(cosine), 1e-4));
+        g = sg_beckmann_lobe(normal, wi, (float)half);
+        within(&bound, (double)g.sharpness, wanted, test_ulp(wanted) / fmax(fabs(cosine), 1e-4));
+    }
+    {
+        lobe_vec3 z = lobe_vector(0, 0, 1), x = lobe_vector(1, 0, 0);
+        sg_lobe g = sg_ggx_lobe(z, x, 0.5f), sharp = sg_ggx_lobe(z, z, 0);
+        begin();
+        that(g.axis.x == -1 && g.sharpness == 8 / 4e-4f, "grazing light goes straight on");
+        that(fabsf(sharp.sharpness - 5e7f) < 50 && sharp.axis.z == 1, "alpha is clamped to 1e-4");
+    }
+    test_report(&bound);
+    test_report(&mirror);
+}
+
+/* ---- virtual spherical Gaussian lights ---- */
+
+typedef struct {
+    lobe_vec3 offset, normal, wi, power[2];
+    float alpha;
+} vpl;
+
+static vpl draw_vpl(double extent) {
+    vpl p;
+    int k;
+    vec offset = random_direction();
+    p.offset = narrow(combine(log_uniform(1e-3, 1) * extent, offset, 0, offset));
+    record_vector(p.offset);
+    p.normal = random_axis();
+    p.wi = nearly_unit(turned(unit(wide(p.normal)), uniform(0, 1.2)));
+    for (k = 0; k < 2; k++) {
+        p.power[k] = lobe_vector((float)log_uniform(1e-3, 1e3), (float)log_uniform(1e-3, 1e3), 1);
+    }
+    p.alpha = (float)log_uniform(1e-3, 1);
+    return p;
+}
+
+static vsgl_moments moments_of(vpl p) {
+    return vsgl_moments_from_vpl(p.offset, p.normal, p.wi, p.power[VSGL_DIFFUSE], p.power[VSGL_SPECULAR],
+                                 p.alpha);
+}
+
+static double exact_mean(lobe_vec3 colour) {
+    return ((double)colour.x + (double)colour.y + (double)colour.z) / 3;
+}
+
+/* The emission of a VPL: axis, sharpness. */
+static vec exact_emission(vpl p, int k, double *sharpness) {
+    vec n = unit(wide(p.normal)), w = unit(wide(p.wi));
+    double cosine = dot(n, w);
+    *sharpness = k == VSGL_DIFFUSE ? 2 : 0.5 / ((double)p.alpha * (double)p.alpha * fabs(cosine));
+    return k == VSGL_DIFFUSE ? n : combine(2 * cosine, n, -1, w);
+}
+
+static void test_moments(void) {
+    enum { MOMENTS = sizeof(vsgl_moments) / sizeof(float) };
+    test_bound bound = stated("vsgl_moments_from_vpl ulp", 4);
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        vpl p;
+        vsgl_moments m, n, sum;
+        double weight, squared, s;
+        float a[MOMENTS], b[MOMENTS], c[MOMENTS];
+        begin();
+        p = draw_vpl(100);
+        m = moments_of(p);
+        weight = exact_mean(p.power[0]) + exact_mean(p.power[1]);
+        squared = weight * dot(wide(p.offset), wide(p.offset));
+        for (k = 0; k < 2; k++) {
+            double l, w = exact_mean(p.power[k]);
+            vec axis = exact_emission(p, k, &l);
+            w *= l / (l + 1);
+            that(!memcmp(&m.power[k], &p.power[k], sizeof p.power[k]), "a VPL's power");
+            within(&bound, distance(wide(m.direction[k]), combine(w, axis, 0, axis)), 0,
+                   w * 2 * TEST_EPSILON);
+        }
+        within(&bound, distance(wide(m.position), combine(weight, wide(p.offset), 0, wide(p.offset))), 0,
+               weight * length(wide(p.offset)) * 2 * TEST_EPSILON);
+        within(&bound, (double)m.position_squared, squared, test_ulp(squared));
+
+        n = moments_of(draw_vpl(100));
+        s = uniform(0, 2);
+        sum = vsgl_moments_scale(vsgl_moments_add(m, n), (float)s);
+        memcpy(a, &m, sizeof m);
+        memcpy(b, &n, sizeof n);
+        memcpy(c, &sum, sizeof sum);
+        for (k = 0; k < MOMENTS; k++) {
+            double wanted = ((double)a[k] + (double)b[k]) * (double)(float)s;
+            that(fabs((double)c[k] - wanted) <= 2.01 * TEST_EPSILON * fabs(wanted), "moments are linear");
+        }
+    }
+    test_report(&bound);
+}
+
+/* The light of moments against the same sums' formulas in double. */
+static void check_variance(test_bound *bound, vsgl_moments m, lobe_vec3 origin) {
+    vsgl v = vsgl_from_moments(m, origin);
+    double weight = exact_mean(m.power[0]) + exact_mean(m.power[1]);
+    vec mean = combine(1 / weight, wide(m.position), 0, wide(m.position));
+    double mean_squared = dot(mean, mean), variance = (double)m.position_squared / weight - mean_squared;
+    that(v.variance >= 0, "a variance is never negative");
+    within(bound, (double)v.variance, fmax(0, variance), mean_squared + fmax(0, variance));
+    that(distance(wide(v.position), combine(1, mean, 1, wide(origin))) <=
+             8 * TEST_EPSILON * (length(mean) + length(wide(origin))),
+         "the mean position");
+}
+
+static void test_vsgl_of_one_vpl(void) {
+    test_bound variance = test_bound_of("sg.h", "vsgl_from_moments", "variance");
+    test_bound of_vpl = stated("variance of one VPL, of |offset|^2", 0x1p-20);
+    test_bound sharpness = stated("sharpness of one VPL, of sharpness^2", 0x1p-21);
+    test_bound power = stated("power of one VPL rel", 1e-6);
+    int i, k;
+    for (i = 0; i < 50000; i++) {
+        lobe_vec3 origin;
+        vpl p;
+        vsgl v;
+        begin();
+        origin = narrow(combine(log_uniform(1e-3, 1e4), random_direction(), 0, random_direction()));
+        record_vector(origin);
+        p = draw_vpl(100);
+        check_variance(&variance, moments_of(p), origin);
+        v = vsgl_from_moments(moments_of(p), origin);
+        within(&of_vpl, (double)v.variance, 0, dot(wide(p.offset), wide(p.offset)));
+        for (k = 0; k < 2; k++) {
+            double l, total = exact_mean(v.intensity[k]) * exact_integral((double)v.emission[k].sharpness);
+            vec axis = exact_emission(p, k, &l);
+            that(distance(wide(v.emission[k].axis), axis) < 12 * TEST_EPSILON, "the axis of one VPL");
+            if (l < 1e5) within(&sharpness, (double)v.emission[k].sharpness, l, l * (l + 4));
+            that(v.emission[k].sharpness <= 0x1p25f, "sharpness saturates at 2^25");
+            that(v.emission[k].log_amplitude == 0, "the peak is 1");
+            within(&power, total, exact_mean(p.power[k]), exact_mean(p.power[k]));
+        }
+    }
+    test_report(&variance);
+    test_report(&of_vpl);
+    test_report(&sharpness);
+    test_report(&power);
+}
+
+/* A disc of radius 1 whose centre lies at some distance from the sums' origin, summed as a mipmap does. */
+static void test_vsgl_of_a_disc(void) {
+    enum { LEVELS = 10, VPLS = 1 << LEVELS };
+    static const double distances[] = {0, 1, 10, 100};
+    static vsgl_moments sums[VPLS];
+    test_bound bound = test_bound_of("sg.h", "vsgl_from_moments", "variance");
+    test_bound disc = stated("variance of a disc, of |mean|^2 + variance", (2 + 0.5 * LEVELS) * 0x1p-22);
+    test_bound toksvig = stated("sharpness of a disc rel", 2e-5);
+    int trial, i, k, n;
+    for (trial = 0; trial < 20; trial++) {
+        lobe_vec3 origin = lobe_vector(1000, -2000, 500);
+        vec centre, normal = random_direction(), mean = {0, 0, 0}, direction[2] = {{0, 0, 0}, {0, 0, 0}};
+        double weights = 0, powers[2] = {0, 0}, squares = 0, variance;
+        vsgl v;
+        begin();
+        centre = random_direction();
+        centre = combine(record(distances[trial % COUNT(distances)]), centre, 0, centre);
+        for (i = 0; i < VPLS; i++) {
+            vec offset = combine(1, centre, sqrt(test_uniform(&rng)), turned(normal, PI / 2));
+            vpl p;
+            double w;
+            inputs = 1;
+            p = draw_vpl(1);
+            p.offset = narrow(offset);
+            p.normal = nearly_unit(turned(normal, 0.5 * test_uniform(&rng)));
+            w = exact_mean(p.power[0]) + exact_mean(p.power[1]);
+            weights += w;
+            mean = combine(1, mean, w, wide(p.offset));
+            squares += w * dot(wide(p.offset), wide(p.offset));
+            for (k = 0; k < 2; k++) {
+                double l, power = exact_mean(p.power[k]);
+                vec axis = exact_emission(p, k, &l);
+                powers[k] += power;
+                direction[k] = combine(1, direction[k], power * l / (l + 1), axis);
+            }
+            sums[i] = moments_of(p);
+        }
+        for (n = VPLS / 2; n; n /= 2) {
+            for (i = 0; i < n; i++)
+                sums[i] = vsgl_moments_scale(vsgl_moments_add(sums[i], sums[i + n]), 0.5f);
+        }
+        mean = combine(1 / weights, mean, 0, mean);
+        variance = squares / weights - dot(mean, mean);
+        check_variance(&bound, sums[0], origin);
+        v = vsgl_from_moments(sums[0], origin);
+        within(&disc, (double)v.variance, variance, dot(mean, mean) + variance);
+        for (k = 0; k < 2; k++) {
+            double r = length(direction[k]) / powers[k];
+            within(&toksvig, (double)v.emission[k].sharpness, r / (1 - r), r / (1 - r));
+            within(&toksvig,
+                   exact_mean(v.intensity[k]) * exact_integral((double)v.emission[k].sharpness) * VPLS,
+                   powers[k], powers[k]);
+            that(distance(wide(v.emission[k].axis), unit(direction[k])) < 4e-6, "the axis of a disc");
+        }
+    }
+    test_report(&bound);
+    test_report(&disc);
+    test_report(&toksvig);
+}
+
+static void test_vsgl_without_power(void) {
+    vsgl_moments m;
+    vsgl v;
+    int k;
+    memset(&m, 0, sizeof m);
+    v = vsgl_from_moments(m, lobe_vector(1, 2, 3));
+    begin();
+    that(v.position.x == 1 && v.position.y == 2 && v.position.z == 3 && v.variance == 0,
+         "no power: at the origin");
+    for (k = 0; k < 2; k++) {
+        that(v.intensity[k].x == 0 && v.intensity[k].y == 0 && v.intensity[k].z == 0,
+             "no power: no intensity");
+        that(finite_lobe(v.emission[k]) && fabs(length(wide(v.emission[k].axis)) - 1) < 1e-6,
+             "no power: an axis");
+    }
+}
+
+/* ---- the light at a point ---- */
+
+typedef struct {
+    vsgl light;
+    int component; /* the other one is nonsense */
+    lobe_vec3 point, normal;
+} lit_point;
+
+static lit_point draw_lit_point(void) {
+    lit_point s;
+    double l, away;
+    lobe_vec3 to_light;
+    memset(&s, 0, sizeof s);
+    begin();
+    s.component = pick(2) ? VSGL_SPECULAR : VSGL_DIFFUSE;
+    l = pick(8) ? log_uniform(1e-3, 3e7) : record(0);
+    away = pick(16) ? log_uniform(1e-3, 1e4) : record(0);
+    s.light.variance = (float)(pick(4) ? log_uniform(1e-12, 1e4) : record(0));
+    if (pick(4) == 0)
+        s.light.variance = (float)record((double)(float)(away * away / (l + 1e-9))); /* as sharp */
+    s.light.position = narrow(combine(pick(2) * 100, random_direction(), 0, random_direction()));
+    to_light = random_axis();
+    s.point = narrow(combine(1, wide(s.light.position), -away, wide(to_light)));
+    s.light.emission[s.component] = lobe_of(companion(to_light, l), l, 0);
+    s.light.emission[!s.component] = lobe_of(lobe_vector(0, 0, 1), 1e6, 0);
+    s.normal = pick(2) ? companion(to_light, 1) : random_axis();
+    record_vector(s.light.position);
+    record_vector(s.point);
+    return s;
+}
+
+typedef struct {
+    exact_product lobe;
+    double aligned; /* integral of the incoming radiance per unit of intensity, but for exp(log_loss) */
+    double size;    /* of the terms that lose digits, for conditioned() */
+} incoming;
+
+/* Eq. 7, and the point light that it becomes for no variance. */
+static incoming exact_incoming(lit_point s) {
+    incoming in;
+    vec offset = combine(1, wide(s.light.position), -1, wide(s.point));
+    vec back = unit(combine(-1, wide(s.light.emission[s.component].axis), 0, offset));
+    double squared = dot(offset, offset), variance = (double)s.light.variance;
+    double l = (double)s.light.emission[s.component].sharpness, chord;
+    vec to_light = squared > 0 ? unit(offset) : back;
+    chord = distance(to_light, back);
+    if (variance > 0) {
+        in.lobe = multiply(squared / variance, to_light, l, back);
+        in.aligned = exact_integral(in.lobe.sharpness) / (2 * PI * variance);
+    } else {
+        in.lobe = multiply(1, to_light, 0, back);
+        in.lobe.log_loss = -0.5 * l * chord * chord;
+        in.aligned = 1 / squared;
+    }
+    in.size = l * chord - in.lobe.log_loss;
+    return in;
+}
+
+static int is_singular(lit_point s) { /* a point light, at the point */
+    return s.light.variance == 0 && distance(wide(s.light.position), wide(s.point)) == 0;
+}
+
+static void test_incoming_lobe(void) {
+    test_bound bound = test_bound_of("sg.h", "vsgl_incoming_lobe", "conditioned");
+    test_bound naive = stated("Eq. 7 as printed, in long double", 1e-9);
+    int i;
+    for (i = 0; i < 200000; i++) {
+        lit_point s = draw_lit_point();
+        sg_lobe g = vsgl_incoming_lobe(s.light, s.component, s.point);
+        incoming in = exact_incoming(s);
+        double got = exp((double)g.log_amplitude) * exact_integral((double)g.sharpness);
+        double wanted = in.aligned * exp(in.lobe.log_loss);
+        that(finite_lobe(g), "an incoming lobe is finite");
+        if (is_singular(s)) continue;
+        within(&bound, got, wanted, conditioned(in.aligned, in.lobe.log_loss, in.size));
+        if (in.lobe.sharpness > 1e-3 * in.lobe.sum)
+            that(distance(unit(wide(g.axis)), in.lobe.axis) < 1e-6 * in.lobe.sum / in.lobe.sharpness,
+                 "the axis of an incoming lobe");
+        if (s.light.variance > 0 && in.lobe.sum < 1e4 && in.lobe.sharpness > 1e-2) {
+            long double variance = (long double)s.light.variance, lambda = (long double)in.lobe.sharpness;
+            long double c = expl(lambda - (long double)in.lobe.sum) / (2 * (long double)PI * variance);
+            long double whole = c * 2 * (long double)PI / lambda * (1 - expl(-2 * lambda));
+            within(&naive, wanted, (double)whole, (double)whole + 1e-100);
+        }
+    }
+    test_report(&bound);
+    test_report(&naive);
+}
+
+static void test_vsgl_diffuse(void) {
+    test_bound bound = test_bound_of("sg.h", "vsgl_diffuse", "conditioned");
+    int i;
+    for (i = 0; i < 200000; i++) {
+        lit_point s = draw_lit_point();
+        incoming in = exact_incoming(s);
+        double got = (double)vsgl_diffuse(s.light, s.component, s.point, s.normal);
+        double overhead = in.aligned * exp(in.lobe.log_loss) / PI,
+               cosine = dot(in.lobe.axis, unit(wide(s.normal)));
+        double unit_of_error = conditioned(in.aligned / PI, in.lobe.log_loss, in.size);
+        if (is_singular(s)) continue;
+        if (in.lobe.sharpness > 0)
+            unit_of_error *= in.lobe.sum / in.lobe.sharpness; /* how uncertain the axis is */
+        within(&bound, got, overhead * fmax(0, cosine), unit_of_error);
+        if (i % 16 == 0 && s.light.variance > 0 && in.lobe.sharpness < 1e10)
+            that(got <= 4 * overhead * exact_cosine(in.lobe.sharpness, cosine) + bound.limit * unit_of_error,
+                 "a constant cosine is at most 4 times too bright");
+    }
+    test_report(&bound);
+}
+
+static double incoming_radiance(const double w[3], const void *context) {
+    const lit_point *s = (const lit_point *)context;
+    vec offset = combine(1, wide(s->light.position), -1, wide(s->point)), d = vec_of(w);
+    vec back = combine(-1, unit(wide(s->light.emission[s->component].axis)), 0, d);
+    double l = (double)s->light.emission[s->component].sharpness, variance = (double)s->light.variance;
+    double r = length(offset), chord = distance(d, back), extent = distance(combine(r, d, 0, d), offset);
+    return exp(-0.5 * (extent * extent / variance + l * chord * chord)) / (2 * PI * variance);
+}
+
+/* Section 4.2 by quadrature of Eq. 5's Gaussian on the sphere around the point, and what its constant cosine costs. */
+static void test_vsgl_diffuse_model(void) {
+    test_bound bound = stated("vsgl_diffuse against quadrature", 1e-5);
+    int i;
+    for (i = 0; i < 200; i++) {
+        lit_point s = draw_lit_point();
+        incoming in = exact_incoming(s);
+        double axis[3], cosine = fmax(0, dot(in.lobe.axis, unit(wide(s.normal)))), radiance;
+        if (in.lobe.log_loss < -20 || s.light.variance == 0 || in.lobe.sum > 1e5 * (1 + in.lobe.sharpness))
+            continue;
+        if (in.lobe.sharpness > 1e5 || in.lobe.sharpness < 0.01 * in.lobe.sum) continue;
+        axis[0] = in.lobe.axis.x;
+        axis[1] = in.lobe.axis.y;
+        axis[2] = in.lobe.axis.z;
+        radiance = reference_sphere(incoming_radiance, &s, axis, in.lobe.sharpness) / PI;
+        within(&bound, (double)vsgl_diffuse(s.light, s.component, s.point, s.normal), radiance * cosine,
+               radiance);
+    }
+    test_report(&bound);
+}
+
+/* ---- no NaN, no infinity ---- */
+
+/* 0, or a magnitude with a binary exponent in [low, high]. */
+static float wild(int low, int high) {
+    double u = 17 * test_uniform(&rng);
+    if (u < 1) return (float)record(0);
+    return (float)record(ldexp(1 + test_uniform(&rng), low + (int)((u - 1) / 16 * (high + 1 - low))));
+}
+
+static lobe_vec3 wild_vector(int low, int high) {
+    float x = wild(low, high), y = wild(low, high), z = wild(low, high);
+    unsigned signs = (unsigned)pick(8);
+    return lobe_vector(signs & 1 ? -x : x, signs & 2 ? -y : y, signs & 4 ? -z : z);
+}
+
+static lobe_vec3 wild_axis(lobe_vec3 other) {
+    int choice = pick(8);
+    lobe_vec3 axis = lobe_normalize_or(wild_vector(-30, 0), lobe_vector(0, 0, 1));
+    axis = choice == 0 ? other : choice == 1 ? lobe_scale(other, -1) : axis;
+    record_vector(axis);
+    return axis;
+}
+
+static lobe_vec3 wild_colour(void) {
+    return lobe_vector(wild(-140, 60), wild(-140, 60), wild(-140, 60));
+}
+
+static sg_lobe wild_lobe(lobe_vec3 axis) {
+    sg_lobe g;
+    g.axis = wild_axis(axis);
+    g.sharpness = wild(-140, 99);
+    g.log_amplitude = pick(2) ? -wild(-140, 99) : wild(-140, 2);
+    return g;
+}
+
+static void check_finite_functions(void) {
+    lobe_vec3 axis = wild_axis(lobe_vector(1, 0, 0)), wi = wild_axis(axis);
+    sg_lobe a = wild_lobe(axis), b = wild_lobe(a.axis), g = sg_product(a, b);
+    float x = wild(-140, 99), alpha = wild(-140, 0);
+    /* no larger than the amplitudes allow: lobe_exp2 turns a NaN into 2^127.4 */
+    that(sg_eval(a, axis) < 3000, "sg_eval is below its amplitude");
+    that(sg_product_integral(a, b) < 1.2e8f, "sg_product_integral is below its amplitudes");
+    that(finite_bits(sg_integral(x)), "finite sg_integral");
+    that(finite_lobe(sg_normalize(a)), "finite sg_normalize");
+    that(finite_lobe(g) && fabs(length(wide(g.axis)) - 1) < 1e-6, "finite sg_product, unit axis");
+    that(finite_bits(sg_product_integral_approx(a, b)), "finite sg_product_integral_approx");
+    that(finite_lobe(sg_convolve(a, wild(-140, 99))), "finite sg_convolve");
+    x = sg_cosine_integral(a, wi);
+    that(finite_bits(x) && x >= 0, "finite sg_cosine_integral");
+    that(finite_bits(sg_mean_length(a.sharpness)), "finite sg_mean_length");
+    that(finite_bits(sg_sharpness_from_mean_length(wild(-140, -1))), "finite sg_sharpness_from_mean_length");
+    that(finite_lobe(sg_diffuse_lobe(axis)) && finite_lobe(sg_phong_lobe(axis, wi, a.sharpness)) &&
+             finite_lobe(sg_ggx_lobe(axis, wi, alpha)) && finite_lobe(sg_beckmann_lobe(axis, wi, alpha)),
+         "finite reflection lobes");
+}
+
+static void check_finite_light(void) {
+    lobe_vec3 normal = wild_axis(lobe_vector(0, 1, 0)), wi = wild_axis(normal), point = wild_vector(-140, 16);
+    vsgl_moments m =
+        vsgl_moments_from_vpl(wild_vector(-140, 16), normal, wi, wild_colour(), wild_colour(), wild(-140, 0));
+    vsgl_moments n =
+        vsgl_moments_from_vpl(wild_vector(-140, 16), wi, normal, wild_colour(), wild_colour(), wild(-140, 0));
+    vsgl v =
+        vsgl_from_moments(vsgl_moments_scale(vsgl_moments_add(m, n), wild(-20, 0)), wild_vector(-140, 16));
+    int k;
+    if (pick(4) == 0) point = v.position;
+    that(finite_vector(v.position) && finite_bits(v.variance) && v.variance >= 0, "finite vsgl_from_moments");
+    for (k = 0; k < 2; k++) {
+        float lit = vsgl_diffuse(v, k, point, wi);
+        that(finite_vector(v.intensity[k]) && finite_lobe(v.emission[k]), "finite vsgl_from_moments");
+        that(finite_lobe(vsgl_incoming_lobe(v, k, point)), "finite vsgl_incoming_lobe");
+        that(lit >= 0 && lit < 1e20f, "finite vsgl_diffuse");
+    }
+}
+
+static void test_finite(void) {
+    int i;
+    for (i = 0; i < 1000000; i++) {
+        begin();
+        check_finite_functions();
+        begin();
+        check_finite_light();
+    }
+}
+
+const test_case sg_tests[] = {{"sg_exp2", test_exp2},
+                              {"sg_phi", test_phi},
+                              {"sg_vectors", test_vectors},
+                              {"sg_closed_forms", test_closed_forms},
+                              {"sg_eval", test_eval},
+                              {"sg_integral", test_integral},
+                              {"sg_normalize", test_normalize},
+                              {"sg_product", test_product},
+                              {"sg_product_values", test_product_values},
+                              {"sg_product_integral", test_product_integral},
+                              {"sg_product_integral_approx", test_product_integral_approx_model},
+                              {"sg_aligned", test_aligned},
+                              {"sg_convolve", test_convolve},
+                              {"sg_cosine_integral", test_cosine_integral},
+                              {"sg_toksvig", test_toksvig},
+                              {"sg_diffuse_lobe", test_diffuse_lobe},
+                              {"sg_reflection_lobe", test_reflection_lobe},
+                              {"vsgl_moments", test_moments},
+                              {"vsgl_of_one_vpl", test_vsgl_of_one_vpl},
+                              {"vsgl_of_a_disc", test_vsgl_of_a_disc},
+                              {"vsgl_without_power", test_vsgl_without_power},
+                              {"vsgl_incoming_lobe", test_incoming_lobe},
+                              {"vsgl_diffuse", test_vsgl_diffuse},
+                              {"vsgl_diffuse_model", test_vsgl_diffuse_model},
+                              {"sg_finite", test_finite},
+                              {0, 0}};
