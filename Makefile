@@ -1,7 +1,7 @@
 # Lobe. `make help` lists the targets.
 
 BUILD = build
-OPTIMIZE = -O3 -fno-math-errno $(NATIVE)
+OPTIMIZE = -O3 -fno-math-errno -fno-trapping-math $(NATIVE)
 WARN = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion $(if $(WERROR),-Werror)
 CFLAGS = $(OPTIMIZE)
 ARGS =

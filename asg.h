@@ -11,12 +11,14 @@
 
  Configuration: as sg.h, which this includes.
 
- Conventions: an ASG is max(w.z, 0) exp(log_amplitude - sharpness_x (w.x)^2 - sharpness_y (w.y)^2), with x, y, z
- orthonormal to 1e-6. Near its axis an SG is an ASG of half its sharpness. The clamped cosine belongs to the lobe.
- Directions, alpha, colour and units as in sg.h.
+ Conventions: an ASG is max(w.z, 0) exp(log_amplitude - sharpness_x (w.x)^2 - sharpness_y (w.y)^2), with x, y,
+ z orthonormal to 1e-6. Near its axis an SG is an ASG of half its sharpness. The clamped cosine belongs to the
+ lobe. Directions, alpha, colour and units as in sg.h.
 
- Errors: as in sg.h. "lobe" is relative to the larger of 1e-3 times the integral for aligned axes and the value.
- In integrals amplitudes saturate at e^78. Out of finite input comes no NaN and no infinity.
+ Errors: as in sg.h. "directional" is relative, in (1 + |e| + sqrt(l |e|) + 2^-24 l) 2^-24 for an exponent e
+ (of the value over its peak) and the larger sharpness l: what rounding of unit vectors alone costs, for
+ cosines of order 1. In integrals amplitudes saturate at e^78. Out of finite input (unit vectors) comes no NaN
+ and no infinity.
 
  Functions:
 
@@ -28,10 +30,10 @@
    asg_ggx_lobe, asg_ggx_lobe_aniso      reflection lobes of GGX surfaces
    asg_vsgl_specular                     light of a virtual SG light reflected by a GGX surface
 
- Papers named in the sources: 000 is Tokuyoshi 2016, Modified Filtered Importance Sampling for Virtual Spherical
- Gaussian Lights (supplement); 001 is Tokuyoshi 2015, Virtual Spherical Gaussian Lights for Real-Time Glossy
- Indirect Illumination (supplement); 004 is Tokuyoshi 2015, Specular Lobe-Aware Filtering and Upsampling for
- Interactive Indirect Illumination.
+ Papers named in the sources: 000 is Tokuyoshi 2016, Modified Filtered Importance Sampling for Virtual
+ Spherical Gaussian Lights (supplement); 001 is Tokuyoshi 2015, Virtual Spherical Gaussian Lights for
+ Real-Time Glossy Indirect Illumination (supplement); 004 is Tokuyoshi 2015, Specular Lobe-Aware Filtering and
+ Upsampling for Interactive Indirect Illumination.
 */
 #ifndef LOBE_ASG_H
 #define LOBE_ASG_H
@@ -68,11 +70,11 @@ LOBE_API float lobe_asg_square(float x) {
  asg_eval - value of an ASG in a direction
 
    a, dir     sharpness [0, 1e30]
-   returns    max(dir.z, 0) exp(log_amplitude - sharpness_x (dir.x)^2 - sharpness_y (dir.y)^2), components along the
-              lobe's axes; 0 from the horizon down and below 2^-126, saturates at 2^127.4
+   returns    max(dir.z, 0) exp(log_amplitude - sharpness_x (dir.x)^2 - sharpness_y (dir.y)^2), components
+              along the lobe's axes; 0 from the horizon down and below 2^-126, saturates at 2^127.4
 
-   Rounding: <= 9 directional, and 9 2^-24 of the exponential near the horizon
-             [bound asg_eval directional 9 over 1e-8 1e10]
+   Rounding: <= 4.5 directional; near the horizon 4.5 2^-24 of the exponential is added
+             [bound asg_eval directional 4.5 over 1e-8 1e10]
    Model:    exact
    Source:   Xu et al. 2013; 000, section 4.2
 */
@@ -89,18 +91,20 @@ LOBE_API float asg_eval(asg_lobe a, lobe_vec3 dir) {
    a          sharpness [0, 1e30]
    returns    (0, pi] times the amplitude; pi for sharpness 0
 
-   Rounding: <= 9e-7 relative for isotropic lobes, where the formula is exact
-             [bound asg_integral isotropic 9e-7 over 1e-30 1e30]
+   Rounding: <= 3e-7 relative for isotropic lobes, where the formula is exact
+             [bound asg_integral isotropic 3e-7 over 1e-30 1e30]
    Model:    within 8e-4 relative   [bound asg_integral rel 8e-4 over 1e-2 1e5]
-   Source:   fitted for this library: the clamped cosine is the Jacobian of the projection to the disk, where the
-             integral of a plane Gaussian is a product of two of phi(l) = (1 - e^-l) / l but for the corners
+   Source:   fitted for this library: the clamped cosine is the Jacobian of the projection to the disk, where
+             the integral of a plane Gaussian is sqrt(phi(lx) phi(ly)), phi(l) = (1 - e^-l) / l, but for a
+             factor near 1 in the anisotropy
 */
 LOBE_API float asg_integral(asg_lobe a) {
     float l = lobe_max(a.sharpness_x, a.sharpness_y), u = lobe_min(a.sharpness_x, a.sharpness_y);
-    float d = lobe_min(l - u, 1e15f);
-    float b = 1 + 0.27323954f * d * d / ((13.62806f + d * (1.851625f + d)) * (1 + 0.145226f * u));
+    float d = lobe_min(l - u, 1e9f); /* both bounded, so that their product is */
+    float b = 1 + 0.27323954f * d * d / ((13.62806f + d * (1.851625f + d)) * (1 + 0.145226f * lobe_min(u, 1e15f)));
+    float narrow = lobe_phi(l), wide = b * lobe_phi(b * u);
     LOBE_ASSERT(u >= 0);
-    return LOBE_PI * lobe_asg_exp(a.log_amplitude) * sqrtf(lobe_phi(l)) * sqrtf(b * lobe_phi(b * u));
+    return LOBE_PI * lobe_asg_exp(a.log_amplitude) * (narrow * sqrtf(wide / narrow)); /* the product may vanish */
 }
 
 /*
@@ -110,14 +114,14 @@ LOBE_API float asg_integral(asg_lobe a) {
    returns    pi / sqrt(sharpness_x sharpness_y) times the amplitude
 
    Rounding: below the model's
-   Model:    too large: by 9 for a smaller sharpness of 10 or more; 58 % too large at 1, 10 times at 0.1
-             [bound asg_integral_approx model 9 over 10 1e5]
+   Model:    within 4e-5 relative for sharpness of 10 or more; 1.6 times too large at 1, 10 times at 0.1
+             [bound asg_integral_approx model 4e-5 over 10 1e5]
    Source:   Xu et al. 2013; 000, section 4.2 with an SG of sharpness 0
 */
 LOBE_API float asg_integral_approx(asg_lobe a) {
+    float x = lobe_max(a.sharpness_x, 1e-4f), y = lobe_max(a.sharpness_y, 1e-4f);
     LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0);
-    return LOBE_PI * lobe_asg_exp(a.log_amplitude) * lobe_asg_rsqrt(a.sharpness_x) *
-           lobe_asg_rsqrt(a.sharpness_y);
+    return LOBE_PI * lobe_asg_exp(a.log_amplitude) / (x * sqrtf(y / x)); /* x y may overflow */
 }
 
 /*
@@ -128,14 +132,15 @@ LOBE_API float asg_integral_approx(asg_lobe a) {
               pi / sqrt((sharpness_x + nu) (sharpness_y + nu)); 0 for an SG from the horizon down
 
    Rounding: <= 9 directional   [bound asg_sg_integral_xu directional 9 over 1e12 1e20]
-   Model:    within 9 of the value for aligned axes, relative RMS 9 where the value is above 1 % of that, if all
-             sharpnesses are 10 or more
-             [bound asg_sg_integral_xu aligned 9 over 10 1e6] [bound asg_sg_integral_xu rms 9 over 10 1e6]
+   Model:    within .035 of the value for aligned axes if all sharpnesses are 10 or more, relative RMS .07
+             where the value is above 1 % of that; several times too large for sharpness below 1
+             [bound asg_sg_integral_xu aligned .035 over 10 1e6]
+             [bound asg_sg_integral_xu rms .07 over 10 1e6]
    Source:   Xu et al. 2013; 000, section 4.2; 001, Eq. 2
 */
 LOBE_API float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
-    float nu = 0.5f * g.sharpness, ix = lobe_asg_rsqrt(a.sharpness_x + nu),
-          iy = lobe_asg_rsqrt(a.sharpness_y + nu);
+    float nu = 0.5f * g.sharpness;
+    float ix = lobe_asg_rsqrt(a.sharpness_x + nu), iy = lobe_asg_rsqrt(a.sharpness_y + nu);
     float x = lobe_dot(a.x, g.axis), y = lobe_dot(a.y, g.axis);
     float loss = a.sharpness_x * (nu * ix * ix) * (x * x) + a.sharpness_y * (nu * iy * iy) * (y * y);
     LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && g.sharpness >= 0);
@@ -143,8 +148,8 @@ LOBE_API float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
            lobe_max(lobe_dot(a.z, g.axis), 0);
 }
 
-/* What the saddlepoint of an ASG times an SG needs, at tau: reciprocals of the three eigenvalues, the first two relative
-   to the third, the shares of the SG's pull, and the second cumulant over t. */
+/* What the saddlepoint of an ASG times an SG needs, at tau: reciprocals of the three eigenvalues, the first
+   two relative to the third, the shares of the SG's pull, and the second cumulant over t. */
 typedef struct lobe_asg_saddle {
     float p, q, t;    /* 1 / (lx + tau), 1 / (ly + tau), 1 / tau */
     float rp, rq;     /* p / t, q / t */
@@ -152,8 +157,7 @@ typedef struct lobe_asg_saddle {
     float k2;
 } lobe_asg_saddle;
 
-LOBE_API lobe_asg_saddle lobe_asg_saddle_at(float tau, float lx, float ly, float nu, float x2, float y2,
-                                            float z2) {
+LOBE_API lobe_asg_saddle lobe_asg_saddle_at(float tau, float lx, float ly, float nu, float x2, float y2, float z2) {
     lobe_asg_saddle s;
     tau = lobe_max(tau, 0.5f); /* it is, but for rounding */
     s.p = 1 / (lx + tau);
@@ -168,7 +172,8 @@ LOBE_API lobe_asg_saddle lobe_asg_saddle_at(float tau, float lx, float ly, float
     return s;
 }
 
-/* (1 + sqrt(1 + 16 nu^2 c2)) / 4 - nu for c2 + rest = 1: the root of the saddle equation of one axis alone, less nu. */
+/* (1 + sqrt(1 + 16 nu^2 c2)) / 4 - nu for c2 + rest = 1: the root of the saddle equation of one axis alone,
+   less nu. */
 LOBE_API float lobe_asg_saddle_floor(float nu, float c2, float rest) {
     float root = sqrtf(1 + 16 * nu * nu * c2);
     return 0.25f * (1 + (1 - 16 * nu * nu * rest) / (root + 4 * nu));
@@ -177,19 +182,21 @@ LOBE_API float lobe_asg_saddle_floor(float nu, float c2, float rest) {
 /*
  asg_sg_integral - integral of the product of an ASG and an SG over the sphere
 
-   a, g       sharpness [0, 1e30]
+   a, g       sharpness [0, 1e30]; the ASG's above 1e12 counts as 1e12
    returns    (0, pi] times both amplitudes, also for an SG below the lobe's horizon
 
    Rounding: <= 9 directional   [bound asg_sg_integral directional 9 over 1e12 1e20]
-   Model:    within 9 of the value for aligned axes, relative RMS 9 where the value is above 1 % of that; within 9
-             if all sharpnesses are 100 or more
-             [bound asg_sg_integral aligned 9 over 1e-2 1e6] [bound asg_sg_integral rms 9 over 1e-2 1e6]
-             [bound asg_sg_integral sharp 9 over 100 1e6]
-   Source:   derived for this library: saddlepoint of the Fisher-Bingham normaliser (after Kume and Wood 2005), with
-             the clamped cosine taken against the marginal along z. Xu's form is the one with tau frozen at nu.
+   Model:    within .07 of the value for aligned axes, relative RMS .033 where the value is above 1 % of that;
+             within 6e-5 if all sharpnesses are 100 or more
+             [bound asg_sg_integral aligned .07 over 1e-2 1e6] [bound asg_sg_integral rms .033 over 1e-2 1e6]
+             [bound asg_sg_integral sharp 6e-5 over 100 1e6]
+   Source:   derived for this library: saddlepoint of the Fisher-Bingham normaliser (after Kume and Wood
+             2005), with the clamped cosine taken against the marginal along z. Xu's form is the one with tau
+             frozen at nu.
 */
 LOBE_API float asg_sg_integral(asg_lobe a, sg_lobe g) {
-    float nu = lobe_min(0.5f * g.sharpness, 1e18f), lx = a.sharpness_x, ly = a.sharpness_y;
+    float nu = lobe_min(0.5f * g.sharpness, 1e15f);
+    float lx = lobe_min(a.sharpness_x, 1e12f), ly = lobe_min(a.sharpness_y, 1e12f);
     float x = lobe_dot(a.x, g.axis), y = lobe_dot(a.y, g.axis), z = lobe_dot(a.z, g.axis);
     float x2 = x * x, y2 = y * y, z2 = z * z;
     float ix = 1 / (lx + nu + 1), iy = 1 / (ly + nu + 1), ra = (nu + 1) * ix, rb = (nu + 1) * iy;
@@ -197,8 +204,8 @@ LOBE_API float asg_sg_integral(asg_lobe a, sg_lobe g) {
     float root = sqrtf(d * d + 16 * nu * nu * (ra * ra * x2 + rb * rb * y2 + z2));
     float delta = 0.25f * (d + (d * d - 16 * nu * nu * away) / (root + 4 * nu)); /* tau - nu */
     float low = lobe_asg_saddle_floor(nu, z2, x2 + y2);
-    float excess, ratio, k3, k4, skew, kurtosis, exponent, correction, spread, width, side, tail, mean, gauss,
-        logistic, mass;
+    float excess, ratio, k3, k4, skew, kurtosis, exponent, correction, spread, width, side, tail, mean, gauss, logistic,
+        mass;
     lobe_asg_saddle s;
     LOBE_ASSERT(lx >= 0 && ly >= 0 && g.sharpness >= 0);
     low = lobe_max(low, lobe_asg_saddle_floor(nu, x2, y2 + z2) - lx);
@@ -206,25 +213,23 @@ LOBE_API float asg_sg_integral(asg_lobe a, sg_lobe g) {
     delta = lobe_max(delta, low);
     /* one Newton step for F = 1, where F - 1 is formed without the ones */
     s = lobe_asg_saddle_at(nu + delta, lx, ly, nu, x2, y2, z2);
-    excess = 0.5f * (s.p + s.q + s.t) -
-             (x2 * ((lx + delta) * s.p) * (1 + nu * s.p) + y2 * ((ly + delta) * s.q) * (1 + nu * s.q) +
-              z2 * (delta * s.t) * (1 + nu * s.t));
+    excess =
+        0.5f * (s.p + s.q + s.t) - (x2 * ((lx + delta) * s.p) * (1 + nu * s.p) +
+                                    y2 * ((ly + delta) * s.q) * (1 + nu * s.q) + z2 * (delta * s.t) * (1 + nu * s.t));
     ratio = sqrtf(lobe_max(1 + excess, 0));
     delta += 2 * excess * ratio * (ratio / ((ratio + 1) * (s.t * s.k2)));
     delta = lobe_max(delta, low);
     s = lobe_asg_saddle_at(nu + delta, lx, ly, nu, x2, y2, z2);
     /* third and fourth cumulants and what they correct */
-    k3 = s.t * (s.rp * s.rp * s.rp + s.rq * s.rq * s.rq + 1) +
-         6 * (s.ux * s.rp * s.rp + s.uy * s.rq * s.rq + s.uz);
+    k3 = s.t * (s.rp * s.rp * s.rp + s.rq * s.rq * s.rq + 1) + 6 * (s.ux * s.rp * s.rp + s.uy * s.rq * s.rq + s.uz);
     k4 = 3 * s.t * (lobe_asg_square(s.rp * s.rp) + lobe_asg_square(s.rq * s.rq) + 1) +
          24 * (s.ux * s.rp * s.rp * s.rp + s.uy * s.rq * s.rq * s.rq + s.uz);
     skew = s.t / s.k2 * lobe_asg_square(k3 / s.k2);
     kurtosis = s.t / s.k2 * (k4 / s.k2);
-    exponent = delta * (delta * (z2 * s.t + x2 * s.p + y2 * s.q)) +
-               (delta - nu) * (x2 * (lx * s.p) + y2 * (ly * s.q));
+    exponent = delta * (delta * (z2 * s.t + x2 * s.p + y2 * s.q)) + (delta - nu) * (x2 * (lx * s.p) + y2 * (ly * s.q));
     exponent = lobe_min(exponent, 1.5f) + 0.125f * (kurtosis - 1.5f * skew);
     correction = 1 + 0.25f * skew * (0.166666667f + 0.25f * skew / (56.4f + 12.225f * skew));
-    /* the clamped cosine: the mean of a clamped normal deviate with mean side and variance 1, and a logistic one */
+    /* the clamped cosine: mean of a clamped normal deviate of mean side and variance 1, and a logistic one */
     spread = s.t * s.k2;
     width = sqrtf(0.5f * s.t * (1 + spread * (0.25f + spread * (0.03125f - 0.0068f * spread))));
     side = 1.41421356f * (nu * sqrtf(s.t)) * z;
@@ -235,12 +240,13 @@ LOBE_API float asg_sg_integral(asg_lobe a, sg_lobe g) {
     gauss = width * (lobe_max(side, 0) + 0.5f * tail);
     logistic = mean / (1 + lobe_exp(-4 * nu * z * mean));
     mass = lobe_max(gauss + (s.uz + 0.5f * s.t) * (logistic - gauss), 0);
+    mass *= s.p * sqrtf(s.rq / s.rp / (s.k2 * correction)); /* sqrt(p q / (k2 correction)), where p q may vanish */
     return 1.41421356f * LOBE_PI * lobe_asg_exp(a.log_amplitude + g.log_amplitude + exponent) * mass *
-           sqrtf(s.p) * sqrtf(s.q / (s.k2 * correction)) * lobe_min(1, 2e18f / lobe_max(g.sharpness, 1));
+           lobe_min(1, 2e15f / lobe_max(g.sharpness, 1));
 }
 
-/* Coefficients of det(Q + tau I) = ((tau + trace) tau + m2) tau + det for the summed quadratic forms Q of two lobes,
-   all of them sums of positive terms, and three quotients of its adjugate. */
+/* Coefficients of det(Q + tau I) = ((tau + trace) tau + m2) tau + det for the summed quadratic forms Q of two
+   lobes, all of them sums of positive terms, and three quotients of its adjugate. */
 typedef struct lobe_asg_pair {
     float trace, m2, det;
     float quad_a, quad_b;                 /* za' Q za, zb' Q zb */
@@ -266,20 +272,20 @@ LOBE_API lobe_asg_pair lobe_asg_pair_of(asg_lobe a, asg_lobe b) {
                    l23 * (cosine + zx2 + yz2));
     k.adj_aa = l12 + l34 * zz2 + l13 * yx2 + l24 * xy2 + l14 * yy2 + l23 * xx2;
     k.adj_bb = l34 + l12 * zz2 + l13 * xy2 + l24 * yx2 + l14 * xx2 + l23 * yy2;
-    k.adj_ab =
-        k.m2 * zz + l13 * (zx * xz * xx) + l24 * (zy * yz * yy) + l23 * (zx * yz * yx) + l14 * (zy * xz * xy);
+    k.adj_ab = k.m2 * zz + l13 * (zx * xz * xx) + l24 * (zy * yz * yy) + l23 * (zx * yz * yx) + l14 * (zy * xz * xy);
     k.cosine = zz;
     return k;
 }
 
-/* The product integral as factor and exponent: a filter may keep its own lobe's and subtract exponents. Sharpness above
-   1e9 counts as 1e9. */
+/* The product integral as factor and exponent: a filter may keep its own lobe's and subtract exponents.
+   Sharpness above 1e9 counts as 1e9. The exponent solves its equation to .1, against 1:
+   [bound asg_product_integral saddle .1 over 1e-2 1e3] */
 LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
     lobe_asg_pair k = lobe_asg_pair_of(a, b);
     float trace = k.trace, low, tau, d, e2, e3, u, v, g0, g1, g2, g, h, lift, c, ca, cb, whole, cross;
     int step;
     LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && b.sharpness_x >= 0 && b.sharpness_y >= 0);
-    /* tau is the largest root of 2 P - P', P = det(Q + tau I): from an upper bound, two of Laguerre's steps */
+    /* tau is the largest root of 2 P - P', P = det(Q + tau I): two Laguerre steps from an upper bound */
     low = k.det / (k.m2 + LOBE_TINY);
     low = k.det / (k.m2 - low * (trace - low) + LOBE_TINY);
     tau = 1.5f - low;
@@ -289,8 +295,9 @@ LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
         tau -= 3 * p / lobe_max(p1 + 2 * sqrtf(lobe_max(p1 * p1 - 3 * p * p2, 0)), 1);
         tau = lobe_max(tau, 0.5f - 0.333333333f * trace);
     }
-    /* Second and fourth moments of the Bingham density, as polynomials of the symmetric functions e2, e3 of its variances.
-       The bounds of tau, d, e2 and c hold but for rounding near equal eigenvalues, where the value is 0. */
+    /* Second and fourth moments of the Bingham density, as polynomials of the symmetric functions e2, e3 of
+       its variances. The bounds of tau, d, e2 and c hold but for rounding near equal eigenvalues, where the
+       value is 0. */
     d = lobe_max(0.5f * ((3 * tau + 2 * trace) * tau + k.m2), 3.375f);
     e3 = 0.125f / d;
     e2 = lobe_max(lobe_min(2 * e3 * (trace + 3 * tau), 0.333333333f), 0);
@@ -322,14 +329,22 @@ LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
    a, b       sharpness [0, 1e30]; above 1e9 it counts as 1e9
    returns    [0, pi] times both amplitudes
 
-   Rounding: <= 9 directional   [bound asg_product_integral directional 9 over 1e6 1e8]
-   Model:    within 9 of the geometric mean of the lobes' integrals with themselves, relative RMS 9 where the value is
-             above 1 % of that; the weight, the integral over that mean, is within 9
-             [bound asg_product_integral aligned 9 over 1e-2 1e5] [bound asg_product_integral rms 9 over 1e-2 1e5]
-             [bound asg_product_integral weight 9 over 1e-2 1e5]
-   Source:   derived for this library: saddlepoint of the Bingham normaliser, fitted moments, and the arc-cosine kernel
-             for both clamped cosines. No eigenvectors: the coefficients of the characteristic polynomial are sums of
-             positive terms, where Cardano's formula cancels (004, "Errors of ASGs"). 004, Eq. 13 is the weight.
+   Rounding: <= 5 directional for sharpness ratios up to 100
+             [bound asg_product_integral directional 5 over 1e6 1e8]
+             The weight, the integral over the geometric mean of the lobes' integrals with themselves, is
+             exactly 1 for a lobe and itself; of lobes of any sharpness up to 1e9 it is symmetric to 1.5e-6
+             and at most 1 + 1.5e-6
+             [bound asg_product_integral symmetric 1.5e-6] [bound asg_product_integral excess 1.5e-6]
+   Model:    within .0125 of that mean, relative RMS .045 where the value is above 1 % of it, the weight
+             within .017; for sharpness of 10 or more within .005 relative where it is above 1 % of the mean
+             [bound asg_product_integral aligned .0125 over 1e-2 1e5]
+             [bound asg_product_integral rms .045 over 1e-2 1e5]
+             [bound asg_product_integral weight .017 over 1e-2 1e5]
+             [bound asg_product_integral sharp .005 over 10 1e5]
+   Source:   derived for this library: saddlepoint of the Bingham normaliser, fitted moments, and the
+             arc-cosine kernel for both clamped cosines. No eigenvectors: the coefficients of the
+             characteristic polynomial are sums of positive terms, where Cardano's formula cancels (004,
+             "Errors of ASGs"). 004, Eq. 13 is the weight.
 */
 LOBE_API float asg_product_integral(asg_lobe a, asg_lobe b) {
     float exponent, factor = lobe_asg_product(a, b, &exponent);
@@ -340,14 +355,19 @@ LOBE_API float asg_product_integral(asg_lobe a, asg_lobe b) {
  asg_product_integral_xu - Xu's integral of the product of two ASGs, without eigenvectors
 
    a, b       sharpness [0, 1e30]; above 1e9 it counts as 1e9
-   returns    [0, inf) times both amplitudes; 0 for axes more than about a right angle apart
+   returns    at least 0, finite, times both amplitudes; 0 for axes more than about a right angle apart
 
-   Rounding: <= 9 directional   [bound asg_product_integral_xu directional 9 over 1e6 1e8]
-   Model:    within 9 of the geometric mean of the lobes' integrals with themselves, relative RMS 9 where the value is
-             above 1 % of that, the weight within 9, all if no sharpness is below 10
-             [bound asg_product_integral_xu aligned 9 over 10 1e5] [bound asg_product_integral_xu rms 9 over 10 1e5]
-             [bound asg_product_integral_xu weight 9 over 10 1e5]
-   Source:   Xu et al. 2013; 004, section 4.2. The smallest eigenvalue by Laguerre's method, the rest from the adjugate
+   Rounding: <= 5 directional for sharpness ratios up to 100, and within 4e-5 relative of
+             the form with eigenvectors
+             [bound asg_product_integral_xu directional 5 over 1e6 1e8]
+             [bound asg_product_integral_xu eigenvectors 4e-5 over 10 1e4]
+   Model:    for sharpness of 10 or more within .005 of the geometric mean of the lobes' integrals with
+             themselves, relative RMS .004 where the value is above 1 % of that, the weight within .004; below
+             1 useless
+             [bound asg_product_integral_xu aligned .005 over 10 1e5]
+             [bound asg_product_integral_xu rms .004 over 10 1e5]
+             [bound asg_product_integral_xu weight .004 over 10 1e5]
+   Source:   Xu et al. 2013; 004, section 4.2. The smallest eigenvalue by Laguerre's method
 */
 LOBE_API float asg_product_integral_xu(asg_lobe a, asg_lobe b) {
     lobe_asg_pair k = lobe_asg_pair_of(a, b);
@@ -355,7 +375,7 @@ LOBE_API float asg_product_integral_xu(asg_lobe a, asg_lobe b) {
     int step;
     LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && b.sharpness_x >= 0 && b.sharpness_y >= 0);
     /* the smallest eigenvalue, from 0 by Laguerre's steps: p = det(Q - low I), p1 = -p', p2 = p'' / 2 */
-    for (step = 0; step < 4; step++) {
+    for (step = 0; step < 2; step++) {
         float p = ((k.trace - low) * low - k.m2) * low + k.det;
         float p1 = k.m2 - (2 * k.trace - 3 * low) * low, p2 = k.trace - 3 * low;
         low = lobe_max(low + 3 * p / (p1 + 2 * sqrtf(lobe_max(p1 * p1 - 3 * p * p2, 0)) + LOBE_TINY), 0);
@@ -369,18 +389,18 @@ LOBE_API float asg_product_integral_xu(asg_lobe a, asg_lobe b) {
  asg_convolve - an ASG blurred by a normalised SG kernel
 
    a          sharpness [0, 1e30]
-   kappa      sharpness of the kernel, (0, infinity]; infinity leaves a as it is
+   kappa      sharpness of the kernel, (0, infinity], counts as at least 1e-8; infinity leaves a as it is
    returns    the same axes, each sharpness l as l / (1 + 2 l / kappa), the amplitude scaled by
               1 / sqrt((1 + 2 lx / kappa) (1 + 2 ly / kappa))
 
-   Rounding: <= 9 relative in sharpness and in 1 + |log_amplitude|   [bound asg_convolve rel 9 over 1e-8 1e10]
-   Model:    Xu's product integral: values within 9 of the blurred peak, if all sharpnesses are 10 or more
-             [bound asg_convolve model 9 over 10 1e5]
+   Rounding: <= 2e-7 relative in sharpness and in 1 + |log_amplitude|
+             [bound asg_convolve rel 2e-7 over 1e-8 1e10]
+   Model:    Xu's product integral: values within .03 of the blurred peak, if all sharpnesses are 10 or more
+             [bound asg_convolve model .03 over 10 1e5]
    Source:   004, section 4.2, times kappa / (2 pi)
 */
 LOBE_API asg_lobe asg_convolve(asg_lobe a, float kappa) {
-    float scale = 2 / lobe_max(kappa, LOBE_TINY);
-    float rx = lobe_min(a.sharpness_x * scale, LOBE_HUGE), ry = lobe_min(a.sharpness_y * scale, LOBE_HUGE);
+    float scale = 2 / lobe_max(kappa, 1e-8f), rx = a.sharpness_x * scale, ry = a.sharpness_y * scale;
     LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && kappa > 0);
     a.sharpness_x /= 1 + rx;
     a.sharpness_y /= 1 + ry;
@@ -390,8 +410,8 @@ LOBE_API asg_lobe asg_convolve(asg_lobe a, float kappa) {
 
 /* ---- reflection lobes ---- */
 
-/* x and y perpendicular to axis, y also perpendicular to normal; x lies between axis and normal. Any frame of the axis
-   is as good where the two agree. After Duff et al. 2017, then turned: orthonormal however near they are. */
+/* x and y perpendicular to the axis, y also to the normal, x on the normal's side. Any frame is as good where
+   axis and normal agree. A frame after Duff et al. 2017, turned: orthonormal however near they are. */
 LOBE_API void lobe_asg_frame(lobe_vec3 normal, asg_lobe *lobe) {
     lobe_vec3 z = lobe->z, u, v;
     float sign = z.z < 0 ? -1.0f : 1.0f, s = -1 / (sign + z.z), t = z.x * z.y * s, c, d, size, inverse;
@@ -412,24 +432,24 @@ LOBE_API void lobe_asg_frame(lobe_vec3 normal, asg_lobe *lobe) {
 
    normal, wi  wi may lie below the horizon; dot(wi, normal) is taken as at least 1e-4 in size
    alpha       [1e-4, 1], clamped below
-   returns     peak 1 around the mirror direction z; x in the plane of incidence, on the normal's side, with sharpness
-               1 / (4 alpha^2); y across it with 1 / (4 alpha^2 cos^2); at normal incidence any x
+   returns     peak 1 around the mirror direction z; x in the plane of incidence, on the normal's side, with
+               sharpness 1 / (4 alpha^2); y across it with 1 / (4 alpha^2 cos^2); at normal incidence any x
 
-   Rounding: frame orthonormal to 9, sharpness <= 9 ulp
-             [bound asg_ggx_lobe orthonormal 9] [bound asg_ggx_lobe ulp 9]
-   Model:    first-order warp of half vectors, Gaussian for GGX: values within 9 of the distribution over its peak,
-             the integral within 9 relative for cos >= .4; GGX has a narrower middle and heavier tails
-             [bound asg_ggx_lobe value 9 over .02 .3] [bound asg_ggx_lobe integral 9 over .02 .3]
+   Rounding: frame orthonormal to 1.1e-6; sharpness within 9 2^-24 / cos relative, what rounding of the
+             directions costs   [bound asg_ggx_lobe orthonormal 1.1e-6] [bound asg_ggx_lobe cosine 9]
+   Model:    first-order warp of half vectors, Gaussian for GGX, which has a narrower middle and heavier
+             tails: values within .24 of the distribution over its peak, the integral within .11 relative for
+             cos >= .4
+             [bound asg_ggx_lobe value .24 over .02 .3] [bound asg_ggx_lobe integral .11 over .02 .3]
    Source:   Xu et al. 2013; Wang et al. 2009; 000, section 4.2
 */
 LOBE_API asg_lobe asg_ggx_lobe(lobe_vec3 normal, lobe_vec3 wi, float alpha) {
     asg_lobe a;
-    float cos_theta = lobe_dot(wi, normal), clamped = lobe_max(fabsf(cos_theta), 1e-4f),
-          scale = 0.5f / lobe_max(alpha, 1e-4f);
+    float cos_theta = lobe_dot(wi, normal), scale = 0.5f / lobe_max(alpha, 1e-4f);
     a.z = lobe_normalize_or(lobe_sub(lobe_scale(normal, 2 * cos_theta), wi), normal);
     lobe_asg_frame(normal, &a);
     a.sharpness_x = scale * scale;
-    a.sharpness_y = lobe_asg_square(scale / clamped);
+    a.sharpness_y = lobe_asg_square(scale / lobe_max(fabsf(cos_theta), 1e-4f));
     a.log_amplitude = 0;
     return a;
 }
@@ -437,22 +457,23 @@ LOBE_API asg_lobe asg_ggx_lobe(lobe_vec3 normal, lobe_vec3 wi, float alpha) {
 /*
  asg_ggx_lobe_aniso - reflection lobe of an anisotropic GGX surface
 
-   tangent           perpendicular to normal; the direction of alpha_x, that of alpha_y is cross(normal, tangent)
+   tangent           perpendicular to normal, the direction of alpha_x; alpha_y: cross(normal, tangent)
    alpha_x, alpha_y  [1e-4, 1], clamped below
    returns           as asg_ggx_lobe, with x the wider axis and y the narrower one
 
-   Rounding: as asg_ggx_lobe; of equal alphas sharpness <= 9 relative   [bound asg_ggx_lobe_aniso isotropic 9]
-   Model:    as asg_ggx_lobe; the exponent at a thousandth of the peak's width is within 9
-             [bound asg_ggx_lobe_aniso curvature 9]
-   Source:   as asg_ggx_lobe: the form diag(1 / alpha^2) through the warp's Jacobian, its 2x2 matrix diagonalised
+   Rounding: as asg_ggx_lobe; of equal alphas sharpness within 22 2^-24 / cos relative
+             [bound asg_ggx_lobe_aniso cosine 22]
+   Model:    as asg_ggx_lobe; against the distribution's the exponent near the axis is within .02
+             [bound asg_ggx_lobe_aniso curvature .02]
+   Source:   as asg_ggx_lobe: the form diag(1 / alpha^2) through the warp's Jacobian, its 2x2 matrix
+             diagonalised
 */
-LOBE_API asg_lobe asg_ggx_lobe_aniso(lobe_vec3 normal, lobe_vec3 tangent, lobe_vec3 wi, float alpha_x,
-                                     float alpha_y) {
+LOBE_API asg_lobe asg_ggx_lobe_aniso(lobe_vec3 normal, lobe_vec3 tangent, lobe_vec3 wi, float alpha_x, float alpha_y) {
     asg_lobe a, turned;
     lobe_vec3 along, bitangent;
     float cos_theta = lobe_dot(wi, normal), stretch = 1 / lobe_max(fabsf(cos_theta), 1e-4f);
     float gx = 0.5f / lobe_max(alpha_x, 1e-4f), gy = 0.5f / lobe_max(alpha_y, 1e-4f);
-    float px, py, qx, qy, middle, half, radius, c, s, size, largest, area = gx * stretch * gy;
+    float px, py, qx, qy, middle, spread, radius, c, s, size, largest, area = gx * stretch * gy;
     a.z = lobe_normalize_or(lobe_sub(lobe_scale(normal, 2 * cos_theta), wi), normal);
     lobe_asg_frame(normal, &a);
     along = lobe_cross(a.y, normal);
@@ -462,12 +483,12 @@ LOBE_API asg_lobe asg_ggx_lobe_aniso(lobe_vec3 normal, lobe_vec3 tangent, lobe_v
     qx = gy * lobe_dot(along, bitangent);
     qy = gy * lobe_dot(a.y, bitangent) * stretch;
     middle = 0.5f * (px * px + qx * qx + py * py + qy * qy);
-    half = 0.5f * ((px - py) * (px + py) + (qx - qy) * (qx + qy));
+    spread = 0.5f * ((px - py) * (px + py) + (qx - qy) * (qx + qy));
     c = px * py + qx * qy;
-    radius = sqrtf(half * half + c * c);
+    radius = sqrtf(spread * spread + c * c);
     largest = middle + radius;
-    s = half > 0 ? radius + half : c;
-    c = half > 0 ? c : radius - half;
+    s = spread > 0 ? radius + spread : c;
+    c = spread > 0 ? c : radius - spread;
     size = sqrtf(s * s + c * c);
     s = size > LOBE_TINY ? s / size : 0.0f;
     c = size > LOBE_TINY ? c / size : 1.0f;
@@ -492,16 +513,19 @@ LOBE_API asg_lobe asg_ggx_lobe_aniso(lobe_vec3 normal, lobe_vec3 tangent, lobe_v
    reflection    asg_ggx_lobe(normal, wi, alpha) or any other of log_amplitude at most 10: once for all lights
    returns       reflected radiance per unit of v.intensity[component] and Fresnel reflectance
 
-   Rounding: <= 9 directional   [bound asg_vsgl_specular directional 9]
-             a variance of 0 or below 1e-9 of the squared distance gives the point light to 9
-             [bound asg_vsgl_specular rel 9]
-   Model:    against the lobes' product with the rest of the BRDF, for lights no wider than a tenth of their distance
-             within one and a half widths of the lobe: within 9   [bound asg_vsgl_specular model 9 over .1 .5]
-   Source:   000, section 4.2: C is the peak 1 / (pi alpha^2) times Smith's height-correlated visibility (Heitz 2014)
-             times the cosine, constant over the incoming lobe. Its 1 / variance goes with nu, so neither overflows.
+   Rounding: <= 17 directional   [bound asg_vsgl_specular directional 17]
+             A variance of 0, or below 1e-9 of the squared distance, gives the point light to 8e-6
+             [bound asg_vsgl_specular rel 8e-6]
+   Model:    against the integral of incoming lobe, reflection and C: within .05 for lights of a standard
+             deviation up to a tenth of their distance and within alpha of the mirror direction, above grazing
+             incidence
+             [bound asg_vsgl_specular model .05 over .1 .5]
+   Source:   000, section 4.2, with the inverse variance gathered with nu, so that neither overflows. C is the
+             peak 1 / (pi alpha^2) times Smith's height-correlated visibility (Heitz 2014) times the cosine,
+             constant over the incoming lobe.
 */
-LOBE_API float asg_vsgl_specular(vsgl v, int component, lobe_vec3 point, lobe_vec3 normal, lobe_vec3 wi,
-                                 float alpha, asg_lobe reflection) {
+LOBE_API float asg_vsgl_specular(vsgl v, int component, lobe_vec3 point, lobe_vec3 normal, lobe_vec3 wi, float alpha,
+                                 asg_lobe reflection) {
     float inverse_variance;
     sg_lobe g = lobe_vsgl_incoming(v, component, point, &inverse_variance);
     float lx = reflection.sharpness_x, ly = reflection.sharpness_y, nu = 0.5f * g.sharpness;
@@ -512,8 +536,8 @@ LOBE_API float asg_vsgl_specular(vsgl v, int component, lobe_vec3 point, lobe_ve
     float a2 = lobe_asg_square(lobe_max(alpha, 1e-4f));
     float ci = lobe_max(lobe_dot(wi, normal), 0), co = lobe_max(lobe_dot(g.axis, normal), 0);
     float smith = co * sqrtf(a2 + (1 - a2) * ci * ci) + ci * sqrtf(a2 + (1 - a2) * co * co);
-    return value * (0.25f / LOBE_PI * inverse_variance * ix * iy) *
-           lobe_max(lobe_dot(reflection.z, g.axis), 0) * co / (a2 * lobe_max(smith, 1e-20f));
+    return value * (0.25f / LOBE_PI * inverse_variance * ix * iy) * lobe_max(lobe_dot(reflection.z, g.axis), 0) * co /
+           (a2 * lobe_max(smith, 1e-20f));
 }
 
 #endif

@@ -142,8 +142,7 @@ LOBE_API int lobe_fis_size(int size, int level) {
 LOBE_API int fis_levels(int width, int height) {
     int levels = 1;
     LOBE_ASSERT(width >= 1 && width <= LOBE_FIS_SIDE && height >= 1 && height <= LOBE_FIS_SIDE);
-    while (levels < LOBE_FIS_LEVELS &&
-           (lobe_fis_size(width, levels - 1) > 1 || lobe_fis_size(height, levels - 1) > 1))
+    while (levels < LOBE_FIS_LEVELS && (lobe_fis_size(width, levels - 1) > 1 || lobe_fis_size(height, levels - 1) > 1))
         levels++;
     return levels;
 }
@@ -158,8 +157,7 @@ LOBE_API fis_pyramid lobe_fis_layout(int width, int height, int channels) {
     p.channels = channels;
     p.levels = fis_levels(width, height);
     for (level = 1; level < p.levels; level++)
-        p.offset[level] =
-            p.offset[level - 1] + lobe_fis_size(width, level - 1) * lobe_fis_size(height, level - 1);
+        p.offset[level] = p.offset[level - 1] + lobe_fis_size(width, level - 1) * lobe_fis_size(height, level - 1);
     return p;
 }
 
@@ -187,8 +185,7 @@ LOBE_API void lobe_fis_halve(float *out, const float *top, const float *bottom, 
         int next = x + 1 < width ? channels : 0;
         float right = x + 1 < width ? 1.0f : 0.0f;
         for (c = 0; c < channels; c++)
-            out[c] =
-                0.25f * (top[c] + right * top[c + next]) + below * (bottom[c] + right * bottom[c + next]);
+            out[c] = 0.25f * (top[c] + right * top[c + next]) + below * (bottom[c] + right * bottom[c + next]);
         out += channels;
         top += channels + next;
         bottom += channels + next;
@@ -276,8 +273,7 @@ LOBE_API lobe_fis_taps lobe_fis_locate(const fis_pyramid *p, float u, float v, i
     int column = (int)x, row = (int)y;
     size_t channels = (size_t)p->channels;
     size_t right = column + 1 < width ? channels : 0, below = row + 1 < height ? (size_t)width * channels : 0;
-    taps.texel[0] =
-        p->texels + ((size_t)p->offset[level] + (size_t)row * (size_t)width + (size_t)column) * channels;
+    taps.texel[0] = p->texels + ((size_t)p->offset[level] + (size_t)row * (size_t)width + (size_t)column) * channels;
     taps.texel[1] = taps.texel[0] + right;
     taps.texel[2] = taps.texel[0] + below;
     taps.texel[3] = taps.texel[2] + right;
@@ -373,8 +369,7 @@ LOBE_API fis_sample fis_warp(const fis_pyramid *pdf, fis_point point) {
         int width = lobe_fis_size(pdf->width, level), height = lobe_fis_size(pdf->height, level);
         int right = 2 * x + 1 < width, below = 2 * y + 1 < height;
         const float *top = pdf->texels + pdf->offset[level] + (size_t)(2 * y) * (size_t)width + 2 * x;
-        float a = top[0], b = right ? top[1] : 0, c = below ? top[width] : 0,
-              d = right && below ? top[width + 1] : 0;
+        float a = top[0], b = right ? top[1] : 0, c = below ? top[width] : 0, d = right && below ? top[width + 1] : 0;
         below = lobe_fis_choose(&v, a + b, c + d);
         a = below ? c : a;
         b = below ? d : b;
@@ -639,12 +634,10 @@ LOBE_API fis_split_table fis_split_build(double *memory, const float *image, int
 
 /* Mass of the image left of x and above y, in texels; linear in each of them within a texel, as the PDF is constant */
 LOBE_API double lobe_fis_mass(const fis_split_table *table, double x, double y) {
-    int column = x < table->width ? (int)x : table->width - 1,
-        row = y < table->height ? (int)y : table->height - 1;
+    int column = x < table->width ? (int)x : table->width - 1, row = y < table->height ? (int)y : table->height - 1;
     const double *above = table->sums + (size_t)row * ((size_t)table->width + 1) + column;
     const double *below = above + table->width + 1;
-    double a = above[0] + (above[1] - above[0]) * (x - column),
-           b = below[0] + (below[1] - below[0]) * (x - column);
+    double a = above[0] + (above[1] - above[0]) * (x - column), b = below[0] + (below[1] - below[0]) * (x - column);
     return a + (b - a) * (y - row);
 }
 
@@ -657,8 +650,7 @@ LOBE_API double lobe_fis_strip(const fis_split_table *table, int vertical, doubl
 /* Splits a cell, given in texels, into n; the depth is log2 n. */
 LOBE_API void lobe_fis_split(const fis_split_table *table, fis_cell cell, int n, fis_cell *cells) {
     int vertical = cell.v1 - cell.v0 > cell.u1 - cell.u0, low, high;
-    double from = vertical ? cell.u0 : cell.v0,
-           to = vertical ? cell.u1 : cell.v1; /* the cell across the cut */
+    double from = vertical ? cell.u0 : cell.v0, to = vertical ? cell.u1 : cell.v1;   /* the cell across the cut */
     double start = vertical ? cell.v0 : cell.u0, end = vertical ? cell.v1 : cell.u1; /* and along */
     double before, after, wanted, cut;
     fis_cell first = cell, second = cell;
@@ -736,8 +728,7 @@ LOBE_API float lobe_fis_overlap(int texel, double from, double to) {
    Model:    exact, the image constant in each texel
    Source:   002, section 4: the total texel value in a cluster
 */
-LOBE_API void fis_cell_sum(const float *image, int width, int height, int channels, fis_cell cell,
-                           float *out) {
+LOBE_API void fis_cell_sum(const float *image, int width, int height, int channels, fis_cell cell, float *out) {
     double u0 = lobe_fis_inside(cell.u0, width), u1 = lobe_fis_inside(cell.u1, width);
     double v0 = lobe_fis_inside(cell.v0, height), v1 = lobe_fis_inside(cell.v1, height);
     int x0 = (int)u0, x1 = (int)ceil(u1), y0 = (int)v0, y1 = (int)ceil(v1), first, x, y, c;

@@ -56,10 +56,10 @@
 #include <string.h>
 
 #ifndef LOBE_API
-#    define LOBE_API static inline
+#define LOBE_API static inline
 #endif
 #ifndef LOBE_ASSERT
-#    define LOBE_ASSERT(condition) ((void)0)
+#define LOBE_ASSERT(condition) ((void)0)
 #endif
 
 /* ---- types ---- */
@@ -140,8 +140,8 @@ LOBE_API lobe_vec3 lobe_cross(lobe_vec3 a, lobe_vec3 b) {
     return lobe_vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-/* v / |v|; the fallback where v is too short to have a direction. Chosen field by field, since clang does not vectorise a
-   choice of structs. */
+/* v / |v|; the fallback where v is too short to have a direction. Chosen field by field, since clang does not vectorise
+   a choice of structs. */
 LOBE_API lobe_vec3 lobe_normalize_or(lobe_vec3 v, lobe_vec3 fallback) {
     float size = lobe_max(lobe_max(fabsf(v.x), fabsf(v.y)), fabsf(v.z));
     float inverse = 1 / lobe_max(size, LOBE_TINY), x = v.x * inverse, y = v.y * inverse, z = v.z * inverse;
@@ -256,8 +256,7 @@ LOBE_API sg_lobe sg_normalize(sg_lobe g) {
    lobes of equal sharpness. */
 LOBE_API lobe_vec3 lobe_product_mean(sg_lobe a, sg_lobe b) {
     float difference = (a.sharpness - b.sharpness) / lobe_max(a.sharpness + b.sharpness, LOBE_TINY);
-    return lobe_scale(
-        lobe_add(lobe_add(a.axis, b.axis), lobe_scale(lobe_sub(a.axis, b.axis), difference)), 0.5f);
+    return lobe_scale(lobe_add(lobe_add(a.axis, b.axis), lobe_scale(lobe_sub(a.axis, b.axis), difference)), 0.5f);
 }
 
 /* Where two SGs multiply: sharpness of the product from its mean axis, and log of what the misalignment costs (<= 0),
@@ -336,7 +335,7 @@ LOBE_API float sg_product_integral_approx(sg_lobe a, sg_lobe b) {
  sg_convolve - an SG blurred by a normalised SG kernel
 
    g          sharpness [0, 1e30]
-   kappa      sharpness of the kernel, (0, infinity]; infinity leaves g as it is
+   kappa      sharpness of the kernel, (0, infinity], counts as at least 1e-8; infinity leaves g as it is
    returns    the same axis, sharpness / (1 + sharpness / kappa), the amplitude scaled by the same factor
 
    Rounding: <= 2e-7 relative in sharpness   [bound sg_convolve rel 2e-7 over 1e-8 1e10]
@@ -344,7 +343,7 @@ LOBE_API float sg_product_integral_approx(sg_lobe a, sg_lobe b) {
    Source:   004, Eq. 10 times kappa / (2 pi)
 */
 LOBE_API sg_lobe sg_convolve(sg_lobe g, float kappa) {
-    float ratio = lobe_min(g.sharpness / lobe_max(kappa, LOBE_TINY), LOBE_HUGE);
+    float ratio = g.sharpness / lobe_max(kappa, 1e-8f);
     LOBE_ASSERT(g.sharpness >= 0 && kappa > 0);
     g.sharpness = g.sharpness / (1 + ratio);
     g.log_amplitude -= logf(1 + ratio);
@@ -367,15 +366,15 @@ LOBE_API float sg_cosine_integral(sg_lobe g, lobe_vec3 normal) {
     float l = lobe_min(g.sharpness, 1e18f), al = fabsf(c) * l;
     float lk = sqrtf(l * l + 4), z = sqrtf((l - al) * (l + al) + 4);
     float u = 3 / (3 + l), v = sqrtf(u), y = al * v, q = al * (al / ((z + lk) * lk));
-    float exponent = q * (lk - 0.4376973f - 0.08004827f * u) +
-                     y * ((0.7025054f + u * (0.3865652f - 0.4270251f * u)) +
-                          y * ((-0.05964701f - 0.05367299f * u) + 0.00268569f * y));
+    float exponent =
+        q * (lk - 0.4376973f - 0.08004827f * u) + y * ((0.7025054f + u * (0.3865652f - 0.4270251f * u)) +
+                                                       y * ((-0.05964701f - 0.05367299f * u) + 0.00268569f * y));
     float denominator = 1 + u * (-2.62787865f + u * (3.46178743f + u * (-1.98509711f + u * 0.936508642f)));
     float peak = v * (0.230304177f + u * (-0.517313575f + u * (0.593470966f + u * (-0.194214744f + u * 0.084104355f))));
     float mean = (1 - u) * (1 + u * (-1.95684843f + u * (1.97401732f - u * 0.231920424f)));
     LOBE_ASSERT(g.sharpness >= 0);
-    return lobe_exp(g.log_amplitude) * sg_integral(g.sharpness) *
-           (peak * lobe_exp(-exponent) + mean * lobe_max(c, 0)) / denominator;
+    return lobe_exp(g.log_amplitude) * sg_integral(g.sharpness) * (peak * lobe_exp(-exponent) + mean * lobe_max(c, 0)) /
+           denominator;
 }
 
 /*

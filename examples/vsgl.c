@@ -54,7 +54,8 @@ static void find_moments(const scene *world, const buffer *rsm, vsgl_moments *mo
             if (density[i] > 0)
                 moments[i] = vsgl_moments_from_vpl(lobe_sub(t->hit.position, world->center), t->hit.normal, t->view,
                                                    diffuse, specular, t->hit.look.alpha);
-            else memset(&moments[i], 0, sizeof moments[i]);
+            else
+                memset(&moments[i], 0, sizeof moments[i]);
         }
     }
 }
@@ -87,10 +88,14 @@ static void sample_lights(const scene *world, const fis_pyramid *moments, const 
 
 /* A shadow map at the mean of each light. Its own extent does not shade it. */
 static void find_visibility(const scene *world, const vsgl *lights, int count, shadow_map *maps) {
+    progress line = progress_begin("shadow maps", count);
     int i;
     PARALLEL_FOR
-    for (i = 0; i < count; i++)
+    for (i = 0; i < count; i++) {
         shadow_map_render(&maps[i], world, lights[i].position, 0.01f + sqrtf(lights[i].variance));
+        progress_step(&line);
+    }
+    progress_end(&line);
 }
 
 enum { BLOCK = 512 };
@@ -148,8 +153,7 @@ static void shade_component(pixel_block *b, const vsgl *light, int k) {
         reflection.sharpness_y = b->sharpness_y[i];
         reflection.log_amplitude = 0;
         diffuse = b->visible[i] * vsgl_diffuse(v, k, position, normal);
-        specular = b->visible[i] *
-                   asg_vsgl_specular(v, k, position, normal, load(b->view, i), b->alpha[i], reflection);
+        specular = b->visible[i] * asg_vsgl_specular(v, k, position, normal, load(b->view, i), b->alpha[i], reflection);
         b->diffuse[0][i] += diffuse * intensity.x;
         b->diffuse[1][i] += diffuse * intensity.y;
         b->diffuse[2][i] += diffuse * intensity.z;
@@ -189,8 +193,7 @@ static void shade(const buffer *view, const vsgl *lights, const shadow_map *maps
     PARALLEL_FOR
     for (block = 0; block < blocks; block++) {
         int first = block * BLOCK, count = pixels - first < BLOCK ? pixels - first : BLOCK;
-        shade_block(&storage[block], view->texels + first, count, lights, maps, light_count,
-                    indirect->pixels + first);
+        shade_block(&storage[block], view->texels + first, count, lights, maps, light_count, indirect->pixels + first);
         progress_step(&line);
     }
     progress_end(&line);
@@ -200,6 +203,7 @@ static void shade(const buffer *view, const vsgl *lights, const shadow_map *maps
 /* ---- what surrounds the pipeline ---- */
 
 static void light_directly(const scene *world, const buffer *view, image *direct) {
+    progress line = progress_begin("direct light", view->height);
     int row;
     PARALLEL_FOR
     for (row = 0; row < view->height; row++) {
@@ -208,7 +212,9 @@ static void light_directly(const scene *world, const buffer *view, image *direct
             const texel *t = &view->texels[i];
             if (t->valid) direct->pixels[i] = brdf_lit_by_spot(world, &t->hit, t->view);
         }
+        progress_step(&line);
     }
+    progress_end(&line);
 }
 
 static double total_flux(const vsgl *lights, int count) {
@@ -247,8 +253,9 @@ static void check_paths(const char *prefix) {
 }
 
 static void write_pictures(const char *prefix, const image *direct, const image *indirect, const image *reference) {
-    const float exposure = 1.5f;
+    const float exposure = 2.2f;
     const int width = direct->width, height = direct->height, count = width * height;
+    progress line = progress_begin("pictures", PICTURES);
     image pictures[PICTURES];
     char path[1024];
     int i;
@@ -272,111 +279,136 @@ static void write_pictures(const char *prefix, const image *direct, const image 
         wrong = image_write_png(path, &pictures[i], exposure);
         if (wrong) give_up(path, wrong);
         image_free(&pictures[i]);
+        progress_step(&line);
     }
+    progress_end(&line);
     printf("wrote %s.png: direct, direct + indirect, reference, difference; and each alone\n", prefix);
 }
 
+/* What the RSM gives, once for any number of lights, and the milliseconds it took. */
+typedef struct {
+    float *memory[2];
+    fis_pyramid moments, pdf;
+    double flux, moments_ms, pyramid_ms;
+} lit_scene;
+
+static lit_scene prepare(const scene *world, const buffer *rsm) {
+    lit_scene lit;
+    vsgl_moments *moments = (vsgl_moments *)allocate((size_t)RSM_SIZE * RSM_SIZE * sizeof *moments);
+    float *density = (float *)allocate((size_t)RSM_SIZE * RSM_SIZE * sizeof *density);
+    double moments_ms[REPEATS], pyramid_ms[REPEATS];
+    int i;
+    lit.memory[0] = (float *)allocate(fis_pyramid_size(RSM_SIZE, RSM_SIZE, CHANNELS) * sizeof(float));
+    lit.memory[1] = (float *)allocate(fis_pyramid_size(RSM_SIZE, RSM_SIZE, 1) * sizeof(float));
+    for (i = 0; i < REPEATS; i++) {
+        double started = progress_clock();
+        find_moments(world, rsm, moments, density);
+        moments_ms[i] = progress_clock() - started;
+        started = progress_clock();
+        lit.moments = fis_build(lit.memory[0], (const float *)moments, RSM_SIZE, RSM_SIZE, CHANNELS);
+        lit.pdf = fis_build_pdf(lit.memory[1], density, RSM_SIZE, RSM_SIZE);
+        pyramid_ms[i] = progress_clock() - started;
+    }
+    lit.moments_ms = median(moments_ms);
+    lit.pyramid_ms = median(pyramid_ms);
+    lit.flux = 0;
+    for (i = 0; i < RSM_SIZE * RSM_SIZE; i++) lit.flux += (double)density[i];
+    free(moments);
+    free(density);
+    return lit;
+}
+
+/* Renders with one rule and one number of lights, and prints the row that says how fast and how well. */
+static void render(const scene *world, const buffer *view, const lit_scene *lit, level_rule rule, int count,
+                   unsigned seed, const image *reference, image *indirect) {
+    vsgl *lights = (vsgl *)allocate((size_t)count * sizeof *lights);
+    shadow_map *maps = (shadow_map *)allocate((size_t)count * sizeof *maps);
+    double sampling_ms[REPEATS], sampling, visibility, shading, started;
+    char label[64];
+    int i;
+    for (i = 0; i < REPEATS; i++) {
+        started = progress_clock();
+        sample_lights(world, &lit->moments, &lit->pdf, rule, count, seed, lights);
+        sampling_ms[i] = progress_clock() - started;
+    }
+    sampling = median(sampling_ms);
+    started = progress_clock();
+    find_visibility(world, lights, count, maps);
+    visibility = progress_clock() - started;
+    started = progress_clock();
+    snprintf(label, sizeof label, "%d lights, %s", count, rule_names[rule]);
+    shade(view, lights, maps, count, indirect, label);
+    shading = progress_clock() - started;
+    printf("%6d %-9s %7.2f %7.2f %8.3f %10.1f %8.1f %8.1f %8.5f   %6.4f   %.6f\n", count, rule_names[rule],
+           lit->moments_ms, lit->pyramid_ms, sampling, visibility, shading,
+           lit->moments_ms + lit->pyramid_ms + sampling + visibility + shading, image_rmse(indirect, reference),
+           image_relative_error(indirect, reference), total_flux(lights, count) / lit->flux);
+    fflush(stdout);
+    free(lights);
+    free(maps);
+}
+
+/* Indirect light by path tracing, in two halves whose difference tells the noise. */
+static void trace_reference(const scene *world, const buffer *view, const options *o, image *reference, image *half) {
+    const double started = progress_clock();
+    double noise;
+    int i;
+    if (!path_trace_indirect(world, view, o->samples / 2, 2 * o->seed, reference->pixels, "reference, first half") ||
+        !path_trace_indirect(world, view, o->samples / 2, 2 * o->seed + 1, half->pixels, "reference, second half"))
+        give_up("reference", "not enough memory");
+    noise = image_rmse(reference, half) / 2;
+    for (i = 0; i < view->width * view->height; i++)
+        reference->pixels[i] = lobe_scale(lobe_add(reference->pixels[i], half->pixels[i]), 0.5f);
+    printf("reference: %d paths a pixel, %.0f ms, its own noise has an RMSE of about %.2g\n", o->samples / 2 * 2,
+           progress_clock() - started, noise);
+    fflush(stdout);
+}
+
 int main(int argc, char **argv) {
-    options o = {320, 240, {64, 256, 1024, 4096}, 4, 0, 512, "build/vsgl"};
-    scene world = scene_room();
+    options o = {400, 300, {64, 256, 1024, 4096}, 4, 0, 512, "build/vsgl"};
+    const scene world = scene_room();
     buffer view, rsm;
-    image direct, reference, halves[2], indirect, kept;
-    vsgl_moments *moments;
-    float *density, *moment_memory, *pdf_memory;
-    fis_pyramid moment_pyramid, pdf;
-    double moment_times[REPEATS], pyramid_times[REPEATS], flux = 0, moment_ms, pyramid_ms, started;
-    int i, repeat, rule, most = 0;
+    image direct, reference, indirect, best;
+    lit_scene lit;
+    int i, rule, most = 0;
 
-    options_read(&o, argc, argv, "Renders one-bounce glossy indirect light with virtual spherical Gaussian lights\n"
-                                 "and prints its speed against its error, for two rules of filtered sampling.");
+    options_read(&o, argc, argv,
+                 "Renders one-bounce glossy indirect light with virtual spherical Gaussian lights\n"
+                 "and prints its speed against its error, for two rules of filtered sampling.");
     check_paths(o.out);
-
     view = buffer_camera(&world, o.width, o.height);
     rsm = buffer_rsm(&world, RSM_SIZE);
     direct = image_create(o.width, o.height);
     reference = image_create(o.width, o.height);
     indirect = image_create(o.width, o.height);
-    kept = image_create(o.width, o.height);
-    for (i = 0; i < 2; i++) halves[i] = image_create(o.width, o.height);
-    if (!view.texels || !rsm.texels || !direct.pixels || !reference.pixels || !indirect.pixels || !kept.pixels ||
-        !halves[0].pixels || !halves[1].pixels)
+    best = image_create(o.width, o.height);
+    if (!view.texels || !rsm.texels || !direct.pixels || !reference.pixels || !indirect.pixels || !best.pixels)
         give_up("images", "not enough memory");
+
     light_directly(&world, &view, &direct);
-
-    started = progress_clock();
-    for (i = 0; i < 2; i++) {
-        if (!path_trace_indirect(&world, &view, o.samples / 2, o.seed * 2 + (unsigned)i, halves[i].pixels))
-            give_up("reference", "not enough memory");
-    }
-    for (i = 0; i < o.width * o.height; i++)
-        reference.pixels[i] = lobe_scale(lobe_add(halves[0].pixels[i], halves[1].pixels[i]), 0.5f);
-    printf("reference: %d paths a pixel, %.0f ms, RMSE about %.2g\n", o.samples / 2 * 2, progress_clock() - started,
-           image_rmse(&halves[0], &halves[1]) / 2);
-
-    moments = (vsgl_moments *)allocate((size_t)RSM_SIZE * RSM_SIZE * sizeof *moments);
-    density = (float *)allocate((size_t)RSM_SIZE * RSM_SIZE * sizeof *density);
-    moment_memory = (float *)allocate(fis_pyramid_size(RSM_SIZE, RSM_SIZE, CHANNELS) * sizeof *moment_memory);
-    pdf_memory = (float *)allocate(fis_pyramid_size(RSM_SIZE, RSM_SIZE, 1) * sizeof *pdf_memory);
-    for (repeat = 0; repeat < REPEATS; repeat++) {
-        started = progress_clock();
-        find_moments(&world, &rsm, moments, density);
-        moment_times[repeat] = progress_clock() - started;
-        started = progress_clock();
-        moment_pyramid = fis_build(moment_memory, (const float *)moments, RSM_SIZE, RSM_SIZE, CHANNELS);
-        pdf = fis_build_pdf(pdf_memory, density, RSM_SIZE, RSM_SIZE);
-        pyramid_times[repeat] = progress_clock() - started;
-    }
-    moment_ms = median(moment_times);
-    pyramid_ms = median(pyramid_times);
-    for (i = 0; i < RSM_SIZE * RSM_SIZE; i++) flux += (double)density[i];
-
-    printf("%dx%d pixels, RSM %dx%d of %.3f W reflected, times in ms\n\n", o.width, o.height, RSM_SIZE, RSM_SIZE, flux);
+    trace_reference(&world, &view, &o, &reference, &indirect);
+    lit = prepare(&world, &rsm);
+    printf("%dx%d pixels, RSM %dx%d that reflects %.3f W, times in ms\n\n", o.width, o.height, RSM_SIZE, RSM_SIZE,
+           lit.flux);
     printf("lights rule      moments pyramid sampling visibility  shading    total     RMSE relative  light/RSM\n");
     for (i = 0; i < o.light_counts; i++) {
-        const int count = o.lights[i];
-        vsgl *lights = (vsgl *)allocate((size_t)count * sizeof *lights);
-        shadow_map *maps = (shadow_map *)allocate((size_t)count * sizeof *maps);
         for (rule = 0; rule < RULES; rule++) {
-            double sampling_times[REPEATS], sampling_ms, visibility_ms, shading_ms;
-            char label[64];
-            snprintf(label, sizeof label, "%d lights, %s", count, rule_names[rule]);
-            for (repeat = 0; repeat < REPEATS; repeat++) {
-                started = progress_clock();
-                sample_lights(&world, &moment_pyramid, &pdf, (level_rule)rule, count, o.seed, lights);
-                sampling_times[repeat] = progress_clock() - started;
-            }
-            sampling_ms = median(sampling_times);
-            started = progress_clock();
-            find_visibility(&world, lights, count, maps);
-            visibility_ms = progress_clock() - started;
-            started = progress_clock();
-            shade(&view, lights, maps, count, &indirect, label);
-            shading_ms = progress_clock() - started;
-            printf("%6d %-9s %7.2f %7.2f %8.3f %10.1f %8.1f %8.1f %8.5f   %6.4f   %.6f\n", count, rule_names[rule],
-                   moment_ms, pyramid_ms, sampling_ms, visibility_ms, shading_ms,
-                   moment_ms + pyramid_ms + sampling_ms + visibility_ms + shading_ms,
-                   image_rmse(&indirect, &reference), image_relative_error(&indirect, &reference),
-                   total_flux(lights, count) / flux);
-            fflush(stdout);
-            if (rule == RULE_BISECTION && count >= most) {
-                most = count;
-                image_paste(&kept, &indirect, 0, 0);
+            render(&world, &view, &lit, (level_rule)rule, o.lights[i], o.seed, &reference, &indirect);
+            if (rule == RULE_BISECTION && o.lights[i] >= most) {
+                most = o.lights[i];
+                image_paste(&best, &indirect, 0, 0);
             }
         }
-        free(lights);
-        free(maps);
     }
     printf("\n");
-    write_pictures(o.out, &direct, &kept, &reference);
-    free(moments);
-    free(density);
-    free(moment_memory);
-    free(pdf_memory);
+    write_pictures(o.out, &direct, &best, &reference);
+
+    free(lit.memory[0]);
+    free(lit.memory[1]);
     image_free(&direct);
     image_free(&reference);
     image_free(&indirect);
-    image_free(&kept);
-    for (i = 0; i < 2; i++) image_free(&halves[i]);
+    image_free(&best);
     buffer_free(&view);
     buffer_free(&rsm);
     return 0;

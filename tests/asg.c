@@ -99,10 +99,10 @@ static void direction_near(test_rng *rng, const double axis[3], double angle, do
 
 /* ---- quadrature ----
 
- The integral of exp(pull.w - w'form w) max(w.z0, 0) max(w.z1, 0) over the sphere. In the frame whose x axis is
- perpendicular to z0 and z1, with z0 as z, w = (sin a, cos a sin b, cos a cos b): the two planes bound b alone, and the
- integrand is smooth between. The exponent on a ring of constant a is a trigonometric polynomial of b, which gives the
- peak; meshes are graded from there. */
+ The integral of exp(pull.w - w'form w) max(w.z0, 0) max(w.z1, 0) over the sphere. In the frame whose x axis
+ is perpendicular to z0 and z1, with z0 as z, w = (sin a, cos a sin b, cos a cos b): the two planes bound b
+ alone, and the integrand is smooth between. The exponent on a ring of constant a is a trigonometric
+ polynomial of b, which gives the peak; meshes are graded from there. */
 typedef struct {
     double form[3][3], pull[3], second[3], low, high, top;
     int axes;
@@ -169,13 +169,11 @@ static int graded_mesh(double low, double high, double at, double width, double 
     const double growth = 2.5, widest = 0.5;
     double below[128], w, e;
     int count = 0, lower = 0;
-    for (w = width, e = at - w; e > low && lower < 60; w = fmin(w * growth, widest), e -= w)
-        below[lower++] = e;
+    for (w = width, e = at - w; e > low && lower < 60; w = fmin(w * growth, widest), e -= w) below[lower++] = e;
     edges[count++] = low;
     while (lower > 0) edges[count++] = below[--lower];
     if (at > low) edges[count++] = at;
-    for (w = width, e = at + w; e < high && count < 120; w = fmin(w * growth, widest), e += w)
-        edges[count++] = e;
+    for (w = width, e = at + w; e < high && count < 120; w = fmin(w * growth, widest), e += w) edges[count++] = e;
     if (edges[count - 1] < high) edges[count++] = high;
     return count;
 }
@@ -286,7 +284,7 @@ static double reference_product(asg_lobe first, const asg_lobe *second, const sg
             sum += half * l.rule.weight[k] * ring_integral(&l, middle + half * l.rule.node[k]);
         }
     }
-    return sum * exp(l.top + log_amplitude);
+    return l.top + log_amplitude > -600 ? sum * exp(l.top + log_amplitude) : 0;
 }
 
 /* The same for one ASG, by one integral over the azimuth of the projected disk. */
@@ -317,8 +315,7 @@ static void eval_matches(void) {
     test_rng rng = {101};
     int i;
     for (i = 0; i < 200000; i++) {
-        double axis[3], dir[3], lx = test_log_uniform(&rng, bound.low, bound.high), ly = lx, wanted, e, z,
-                                inputs[8];
+        double axis[3], dir[3], lx = test_log_uniform(&rng, bound.low, bound.high), ly = lx, wanted, e, z, inputs[8];
         asg_lobe a;
         exact_asg exact;
         int kind = i % 8;
@@ -336,8 +333,8 @@ static void eval_matches(void) {
         z = fmax(dot(dir, exact.z), 0);
         e = -exact.lx * pow(dot(dir, exact.x), 2) - exact.ly * pow(dot(dir, exact.y), 2);
         wanted = z * exp(e);
-        if (e < -80) { /* where floats end */
-            test_that(asg_eval(a, narrow(dir)) < 1e-33f, "nothing where the exponent is below -80", dir, 3);
+        if (exp(e) < 1e-25) { /* where floats end */
+            test_that(asg_eval(a, narrow(dir)) < 1e-24f, "next to nothing far from the axis", dir, 3);
             continue;
         }
         inputs[0] = (double)a.sharpness_x;
@@ -383,8 +380,7 @@ static void integral_matches(void) {
         a = lobe_around(up, 0, inputs[i % 2], inputs[1 - i % 2]);
         wanted = reference_integral((double)a.sharpness_x, (double)a.sharpness_y);
         test_within(&bound, (double)asg_integral(a), wanted, wanted, inputs, 2);
-        if (inputs[0] >= rough.low)
-            test_within(&rough, (double)asg_integral_approx(a), wanted, wanted, inputs, 2);
+        if (inputs[0] >= rough.low) test_within(&rough, (double)asg_integral_approx(a), wanted, wanted, inputs, 2);
     }
     for (l = round.low; l <= round.high; l *= 1.37) {
         asg_lobe a = lobe_around(up, 0, l, l);
@@ -407,8 +403,7 @@ typedef struct {
 
 static double product_value(const double w[3], const void *context) {
     const product_context *p = (const product_context *)context;
-    return exact_eval(&p->lobe[0], w) * exact_eval(&p->lobe[1], w) *
-           exp(p->sharpness * (dot(w, p->axis) - 1));
+    return exact_eval(&p->lobe[0], w) * exact_eval(&p->lobe[1], w) * exp(p->sharpness * (dot(w, p->axis) - 1));
 }
 
 static void quadratures_agree(void) {
@@ -420,8 +415,7 @@ static void quadratures_agree(void) {
         asg_lobe a, b;
         sg_lobe g;
         test_direction(&rng, z);
-        a = lobe_around(z, 7 * test_uniform(&rng), test_log_uniform(&rng, 0.1, 20),
-                        test_log_uniform(&rng, 0.1, 20));
+        a = lobe_around(z, 7 * test_uniform(&rng), test_log_uniform(&rng, 0.1, 20), test_log_uniform(&rng, 0.1, 20));
         direction_near(&rng, z, test_uniform(&rng), other);
         b = lobe_around(other, 7 * test_uniform(&rng), test_log_uniform(&rng, 0.1, 20), 1);
         direction_near(&rng, z, test_uniform(&rng), other);
@@ -459,10 +453,8 @@ static void sg_integrals_match(void) {
         lx = test_log_uniform(&rng, bound.low, bound.high);
         ly = test_log_uniform(&rng, bound.low, bound.high);
         lg = test_log_uniform(&rng, bound.low, bound.high);
-        angle = 4 * test_uniform(&rng) / sqrt(1 / (1 / (0.5 * lg + 0.5) + 1 / (fmin(lx, ly) + 0.5)));
-        angle =
-            i % 4 ? fmin(4 * test_uniform(&rng) * sqrt(1 / (0.5 * lg + 0.5) + 1 / (fmin(lx, ly) + 0.5)), 3.14)
-                  : acos(1 - 2 * test_uniform(&rng));
+        angle = i % 4 ? fmin(4 * test_uniform(&rng) * sqrt(1 / (0.5 * lg + 0.5) + 1 / (fmin(lx, ly) + 0.5)), 3.14)
+                      : acos(1 - 2 * test_uniform(&rng));
         if (i % 50 == 1) angle = 0;
         if (i % 50 == 2) angle = REFERENCE_PI / 2;
         if (i % 50 == 3) angle = REFERENCE_PI;
@@ -539,7 +531,7 @@ static void sg_integrals_stay_below_aligned(void) {
     test_rng rng = {120};
     int i;
     for (i = 0; i < 200000; i++) {
-        double z[3], axis[3], inputs[4], aligned, got;
+        double z[3], axis[3], inputs[4], aligned, got, least; /* of the exponent */
         asg_lobe a;
         inputs[0] = test_log_uniform(&rng, 1e-3, 1e12);
         inputs[1] = test_log_uniform(&rng, 1e-3, 1e12);
@@ -551,6 +543,8 @@ static void sg_integrals_stay_below_aligned(void) {
         got = (double)asg_sg_integral(a, sg_around(axis, inputs[2]));
         aligned = (double)asg_sg_integral(a, sg_around(z, inputs[2]));
         test_that(got <= 1.05 * aligned, "at most the value for aligned axes", inputs, 4);
+        least = fmin(fmin(inputs[0], inputs[1]), inputs[2]) * 0.25 * pow(sin(fmin(inputs[3], REFERENCE_PI / 2)), 2);
+        test_that(least < 60 || got <= 1e-12 * aligned, "next to nothing far from the axis", inputs, 4);
     }
 }
 
@@ -564,6 +558,7 @@ static void products_match(void) {
     test_bound bound = test_bound_of("asg.h", "asg_product_integral", "aligned");
     test_bound rms = test_bound_of("asg.h", "asg_product_integral", "rms");
     test_bound weights = test_bound_of("asg.h", "asg_product_integral", "weight");
+    test_bound sharp = test_bound_of("asg.h", "asg_product_integral", "sharp");
     test_bound xu = test_bound_of("asg.h", "asg_product_integral_xu", "aligned");
     test_bound xu_rms = test_bound_of("asg.h", "asg_product_integral_xu", "rms");
     test_bound xu_weights = test_bound_of("asg.h", "asg_product_integral_xu", "weight");
@@ -574,11 +569,9 @@ static void products_match(void) {
         double z[3], other[3], l[4], inputs[5], wanted, first, second, aligned, got, smallest, angle;
         asg_lobe a, b;
         smallest = test_log_uniform(&rng, bound.low, i % 2 ? 10 : 0.1 * bound.high);
-        for (k = 0; k < 4; k++)
-            l[k] = inputs[k] = fmin(smallest * test_log_uniform(&rng, 1, 1e3), bound.high);
+        for (k = 0; k < 4; k++) l[k] = inputs[k] = fmin(smallest * test_log_uniform(&rng, 1, 1e3), bound.high);
         l[i & 3] = inputs[i & 3] = smallest;
-        angle = i % 3 ? fmin(3 * test_uniform(&rng) / sqrt(smallest + 0.3), 3.1)
-                      : acos(1 - 2 * test_uniform(&rng));
+        angle = i % 3 ? fmin(3 * test_uniform(&rng) / sqrt(smallest + 0.3), 3.1) : acos(1 - 2 * test_uniform(&rng));
         if (i % 40 == 0) angle = 0;
         if (i % 40 == 1) angle = REFERENCE_PI;
         if (i % 40 == 2) angle = REFERENCE_PI / 2;
@@ -598,6 +591,9 @@ static void products_match(void) {
         if (wanted > 0.01 * aligned) {
             squares += pow((double)asg_product_integral(a, b) / wanted - 1, 2);
             count++;
+            if (smallest >= sharp.low) {
+                test_within(&sharp, (double)asg_product_integral(a, b), wanted, wanted, inputs, 5);
+            }
         }
         if (smallest < xu.low) continue;
         got = (double)asg_product_integral_xu(a, b);
@@ -614,6 +610,7 @@ static void products_match(void) {
     test_report(&bound);
     test_report(&rms);
     test_report(&weights);
+    test_report(&sharp);
     test_report(&xu);
     test_report(&xu_rms);
     test_report(&xu_weights);
@@ -650,30 +647,143 @@ static void products_round(void) {
     test_report(&xu);
 }
 
-static void weights_are_weights(void) {
-    test_rng rng = {108};
-    int i;
-    for (i = 0; i < 100000; i++) {
-        double z[3], other[3], inputs[5], w, back, first, second;
+/* Eigenvalues and, in columns, eigenvectors of the two lobes' summed quadratic forms, by Jacobi's method. */
+static void eigensystem(asg_lobe first, asg_lobe second, double values[3], double v[3][3]) {
+    exact_asg lobe[2];
+    double q[3][3];
+    int i, j, k, n, sweep;
+    lobe[0] = exact_of(first);
+    lobe[1] = exact_of(second);
+    for (i = 0; i < 3; i++) {
+        for (j = 0; j < 3; j++) {
+            q[i][j] = 0;
+            v[i][j] = i == j;
+            for (n = 0; n < 2; n++) {
+                q[i][j] += lobe[n].lx * lobe[n].x[i] * lobe[n].x[j] + lobe[n].ly * lobe[n].y[i] * lobe[n].y[j];
+            }
+        }
+    }
+    for (sweep = 0; sweep < 12; sweep++) {
+        for (i = 0; i < 2; i++) {
+            for (j = i + 1; j < 3; j++) {
+                double angle = 0.5 * atan2(2 * q[i][j], q[j][j] - q[i][i]), c = cos(angle), s = sin(angle);
+                for (k = 0; k < 3; k++) {
+                    double a = q[k][i], b = q[k][j];
+                    q[k][i] = c * a - s * b;
+                    q[k][j] = s * a + c * b;
+                    a = v[k][i];
+                    b = v[k][j];
+                    v[k][i] = c * a - s * b;
+                    v[k][j] = s * a + c * b;
+                }
+                for (k = 0; k < 3; k++) {
+                    double a = q[i][k], b = q[j][k];
+                    q[i][k] = c * a - s * b;
+                    q[j][k] = s * a + c * b;
+                }
+            }
+        }
+    }
+    for (i = 0; i < 3; i++) values[i] = q[i][i];
+}
+
+/* Xu's form with eigenvectors, in double. */
+static double xu_by_eigenvectors(asg_lobe first, asg_lobe second) {
+    const exact_asg one = exact_of(first), two = exact_of(second);
+    double values[3], v[3][3], lowest[3], gap = 1;
+    int i, least = 0;
+    eigensystem(first, second, values, v);
+    for (i = 1; i < 3; i++) {
+        if (values[i] < values[least]) least = i;
+    }
+    for (i = 0; i < 3; i++) {
+        if (i != least) gap *= values[i] - values[least];
+        lowest[i] = v[i][least];
+    }
+    return REFERENCE_PI * exp(-values[least]) * fmax(dot(lowest, one.z) * dot(lowest, two.z), 0) / sqrt(gap);
+}
+
+/* The exponent solves the saddle equation. */
+static void product_exponent_solves(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_product_integral", "saddle");
+    test_rng rng = {122};
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        double z[3], other[3], inputs[5], values[3], v[3][3], sum = 0, smallest = test_log_uniform(&rng, bound.low, 10);
         asg_lobe a, b;
+        float exponent;
+        for (k = 0; k < 4; k++) inputs[k] = fmin(smallest * test_log_uniform(&rng, 1, 1e4), bound.high);
+        inputs[4] = 3 * test_uniform(&rng);
         test_direction(&rng, z);
-        inputs[0] = test_log_uniform(&rng, 1e-3, 1e9);
-        inputs[1] = test_log_uniform(&rng, 1e-3, 1e9);
-        inputs[2] = test_log_uniform(&rng, 1e-3, 1e9);
-        inputs[3] = test_log_uniform(&rng, 1e-3, 1e9);
-        inputs[4] =
-            i % 8 == 0 ? 0 : acos(1 - 2 * test_uniform(&rng)) * (i % 2 ? 1 : test_log_uniform(&rng, 1e-6, 1));
         a = lobe_around(z, 7 * test_uniform(&rng), inputs[0], inputs[1]);
         direction_near(&rng, z, inputs[4], other);
         b = lobe_around(other, 7 * test_uniform(&rng), inputs[2], inputs[3]);
+        (void)lobe_asg_product(a, b, &exponent);
+        eigensystem(a, b, values, v);
+        if ((double)exponent < -10) continue;
+        for (k = 0; k < 3; k++) sum += 0.5 / (values[k] + (double)exponent);
+        test_within(&bound, sum, 1, 1, inputs, 5);
+    }
+    test_report(&bound);
+}
+
+static void xu_needs_no_eigenvectors(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_product_integral_xu", "eigenvectors");
+    test_rng rng = {121};
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        double z[3], other[3], l[4], inputs[5], wanted, mean, smallest = test_log_uniform(&rng, bound.low, 1e4);
+        asg_lobe a, b;
+        for (k = 0; k < 4; k++) {
+            l[k] = inputs[k] = fmin(smallest * test_log_uniform(&rng, 1, 100), bound.high);
+        }
+        inputs[4] = 3 * test_uniform(&rng) / sqrt(smallest);
+        test_direction(&rng, z);
+        a = lobe_around(z, 7 * test_uniform(&rng), l[0], l[1]);
+        direction_near(&rng, z, inputs[4], other);
+        b = lobe_around(other, 7 * test_uniform(&rng), l[2], l[3]);
+        mean = sqrt(xu_by_eigenvectors(a, a) * xu_by_eigenvectors(b, b));
+        wanted = xu_by_eigenvectors(a, b);
+        if (wanted > 0.01 * mean) {
+            test_within(&bound, (double)asg_product_integral_xu(a, b), wanted, wanted, inputs, 5);
+        }
+    }
+    test_report(&bound);
+}
+
+static void weights_are_weights(void) {
+    test_bound excess = test_bound_of("asg.h", "asg_product_integral", "excess");
+    test_bound symmetric = test_bound_of("asg.h", "asg_product_integral", "symmetric");
+    test_rng rng = {108};
+    int i, k;
+    for (i = 0; i < 100000; i++) {
+        double z[3], other[3], inputs[5], w, back, first, second, turn = 7 * test_uniform(&rng), turned, width;
+        asg_lobe a, b;
+        test_direction(&rng, z);
+        for (k = 0; k < 4; k++) inputs[k] = test_log_uniform(&rng, 1e-3, 1e9);
+        inputs[4] = acos(1 - 2 * test_uniform(&rng));
+        turned = 7 * test_uniform(&rng);
+        if (i % 4) { /* near each other */
+            width = test_log_uniform(&rng, 1e-4, 1) / sqrt(1 + fmax(inputs[0], inputs[1]));
+            inputs[2] = inputs[0] * (1 + (i % 4 - 1) * test_uniform(&rng));
+            inputs[3] = inputs[1] * (1 + (i % 4 - 1) * test_uniform(&rng));
+            inputs[4] = width;
+            turned = turn + (i % 4 == 2 ? width : 0);
+        }
+        a = lobe_around(z, turn, inputs[0], inputs[1]);
+        direction_near(&rng, z, inputs[4], other);
+        b = lobe_around(other, turned, inputs[2], inputs[3]);
         first = (double)asg_product_integral(a, a);
         second = (double)asg_product_integral(b, b);
         w = weight((double)asg_product_integral(a, b), first, second);
         back = weight((double)asg_product_integral(b, a), first, second);
         test_that(weight(first, first, first) == 1, "a lobe's weight with itself is 1", inputs, 5);
-        test_that(w >= 0 && w <= 1.002, "a weight is at most 1 (and .002)", inputs, 5);
-        test_that(fabs(w - back) <= 1e-6 + 2e-3 * w, "a weight is symmetric", inputs, 5);
+        test_that(w >= 0, "a weight is not negative", inputs, 5);
+        test_within(&excess, fmax(w, 1), 1, 1, inputs, 5);
+        test_within(&symmetric, w, back, 1, inputs, 5);
     }
+    test_report(&excess);
+    test_report(&symmetric);
 }
 
 /* One lobe turns past another: the weight must fall and rise without jumps. */
@@ -691,8 +801,7 @@ static void weights_turn_smoothly(void) {
             w = weight((double)asg_product_integral(a, b), self, (double)asg_product_integral(b, b));
             inputs[0] = i;
             inputs[1] = angle;
-            test_that(w <= last + 1e-6 + 1e-8 * sqrt(sharpness[i][1]), "the weight falls as the lobe turns",
-                      inputs, 2);
+            test_that(w <= last + 1e-6 + 1e-8 * sqrt(sharpness[i][1]), "the weight falls as the lobe turns", inputs, 2);
             last = w;
         }
         test_that(sharpness[i][0] == sharpness[i][1] ? fabs(last - 1) < 1e-5 : last < 0.99,
@@ -761,7 +870,8 @@ static void convolve_widens(void) {
     test_report(&bound);
 }
 
-/* An ASG and the SG of twice its sharpness blur alike; twice by kappa is once by kappa / 2; the integral stays. */
+/* An ASG and the SG of twice its sharpness blur alike; twice by kappa is once by kappa / 2; the integral
+   stays. */
 static void convolve_is_consistent(void) {
     test_rng rng = {110};
     int i;
@@ -792,7 +902,7 @@ static void convolve_is_consistent(void) {
     }
 }
 
-/* Against a wide SG the blurred lobe has the integral of the lobe against the SG blurred: both are one triple product. */
+/* The blurred lobe's value is the integral of the lobe against the kernel there. */
 static void convolve_matches_quadrature(void) {
     const double up[3] = {0, 0, 1};
     test_bound bound = test_bound_of("asg.h", "asg_convolve", "model");
@@ -805,7 +915,6 @@ static void convolve_matches_quadrature(void) {
         inputs[0] = test_log_uniform(&rng, bound.low, bound.high);
         inputs[1] = test_log_uniform(&rng, bound.low, bound.high);
         inputs[2] = test_log_uniform(&rng, bound.low, bound.high);
-        inputs[3] = 3 * test_uniform(&rng) / sqrt(1 / (1 / fmin(inputs[0], inputs[1]) + 2 / inputs[2]));
         inputs[3] = fmin(3 * test_uniform(&rng) * sqrt(1 / fmin(inputs[0], inputs[1]) + 2 / inputs[2]), 1.5);
         a = lobe_around(up, 0, inputs[0], inputs[1]);
         direction_near(&rng, up, inputs[3], dir);
@@ -839,8 +948,8 @@ static void check_frame(test_bound *bound, asg_lobe a, const double *inputs, int
 
 static void ggx_frames(void) {
     test_bound bound = test_bound_of("asg.h", "asg_ggx_lobe", "orthonormal");
-    test_bound round = test_bound_of("asg.h", "asg_ggx_lobe", "ulp");
-    test_bound same = test_bound_of("asg.h", "asg_ggx_lobe_aniso", "isotropic");
+    test_bound round = test_bound_of("asg.h", "asg_ggx_lobe", "cosine");
+    test_bound same = test_bound_of("asg.h", "asg_ggx_lobe_aniso", "cosine");
     test_rng rng = {112};
     int i, k;
     for (i = 0; i < 100000; i++) {
@@ -880,8 +989,7 @@ static void ggx_frames(void) {
         inputs[6] = alpha;
         a = asg_ggx_lobe(narrow(n), narrow(w), (float)alpha);
         b = asg_ggx_lobe_aniso(narrow(n), narrow(t), narrow(w), (float)alpha, (float)alpha);
-        c = asg_ggx_lobe_aniso(narrow(n), narrow(t), narrow(w), (float)alpha,
-                               (float)test_log_uniform(&rng, 1e-4, 1));
+        c = asg_ggx_lobe_aniso(narrow(n), narrow(t), narrow(w), (float)alpha, (float)test_log_uniform(&rng, 1e-4, 1));
         check_frame(&bound, a, inputs, 7);
         check_frame(&bound, b, inputs, 7);
         check_frame(&bound, c, inputs, 7);
@@ -891,13 +999,13 @@ static void ggx_frames(void) {
         test_within(&bound, (double)a.z.x, mirror[0], 1, inputs, 7);
         test_within(&bound, (double)a.z.y, mirror[1], 1, inputs, 7);
         test_within(&bound, (double)a.z.z, mirror[2], 1, inputs, 7);
-        cosine = fmax(fabs((double)lobe_dot(narrow(w), narrow(n))), 1e-4);
+        cosine = fmax(fabs(dot(w, n)), 1e-4);
         sx = 0.25 / (alpha * alpha);
         sy = sx / (cosine * cosine);
-        test_within(&round, (double)a.sharpness_x, sx, test_ulp(sx), inputs, 7);
-        test_within(&round, (double)a.sharpness_y, sy, test_ulp(sy), inputs, 7);
-        test_within(&same, (double)b.sharpness_x, sx, sx, inputs, 7);
-        test_within(&same, (double)b.sharpness_y, sy, sy, inputs, 7);
+        test_within(&round, (double)a.sharpness_x, sx, sx * TEST_EPSILON / cosine, inputs, 7);
+        test_within(&round, (double)a.sharpness_y, sy, sy * TEST_EPSILON / cosine, inputs, 7);
+        test_within(&same, (double)b.sharpness_x, sx, sx * TEST_EPSILON / cosine, inputs, 7);
+        test_within(&same, (double)b.sharpness_y, sy, sy * TEST_EPSILON / cosine, inputs, 7);
         /* the across axis lies in the surface, where it is distinct */
         if (cosine < 0.9) {
             double y[3];
@@ -1050,10 +1158,11 @@ static float shade(const shading *s) {
                              (float)s->alpha, s->lobe);
 }
 
-/* The factors of the incoming lobe in double: sharpness, axis and log of the peak without inverse_variance / (2 pi). */
+/* The factors of the incoming lobe in double: sharpness, axis and log of the peak without inverse_variance /
+   (2 pi). */
 static double incoming(const shading *s, double axis[3], double *log_peak, double *inverse_variance) {
-    double offset[3], emission[3], extent, sharpness = (double)s->light.emission[VSGL_SPECULAR].sharpness,
-                                           size, chord = 0;
+    double offset[3], emission[3], extent, sharpness = (double)s->light.emission[VSGL_SPECULAR].sharpness, size,
+                                           chord = 0;
     int k;
     widen(s->light.position, offset);
     widen(s->light.emission[VSGL_SPECULAR].axis, emission);
@@ -1075,16 +1184,14 @@ static double incoming(const shading *s, double axis[3], double *log_peak, doubl
 /* Section 4.2 of 000 in double. */
 static double shade_exactly(const shading *s, double *exponent, double *cosine) {
     exact_asg a = exact_of(s->lobe);
-    double axis[3], log_peak, inverse_variance, nu = 0.5 * incoming(s, axis, &log_peak, &inverse_variance),
-                                                co, x, y;
+    double axis[3], log_peak, inverse_variance, nu = 0.5 * incoming(s, axis, &log_peak, &inverse_variance), co, x, y;
     x = dot(axis, a.x);
     y = dot(axis, a.y);
     co = fmax(dot(axis, s->normal), 0);
     *cosine = fmin(co, dot(axis, a.z));
     *exponent = log_peak - a.lx * nu / (a.lx + nu) * x * x - a.ly * nu / (a.ly + nu) * y * y;
-    return exp(*exponent) * 0.5 * inverse_variance / sqrt((a.lx + nu) * (a.ly + nu)) *
-           fmax(dot(axis, a.z), 0) * co * smith(s->alpha, dot(s->wi, s->normal), co) /
-           (REFERENCE_PI * s->alpha * s->alpha);
+    return exp(*exponent) * 0.5 * inverse_variance / sqrt((a.lx + nu) * (a.ly + nu)) * fmax(dot(axis, a.z), 0) * co *
+           smith(s->alpha, dot(s->wi, s->normal), co) / (REFERENCE_PI * s->alpha * s->alpha);
 }
 
 static void specular_rounds(void) {
@@ -1093,8 +1200,7 @@ static void specular_rounds(void) {
     int i;
     for (i = 0; i < 50000; i++) {
         double inputs[3], wanted, exponent, co, distance = test_log_uniform(&rng, 1e-3, 1e4);
-        double variance = i % 3 ? test_log_uniform(&rng, 1e-20, 1e6) : 0,
-               alpha = test_log_uniform(&rng, 0.01, 1);
+        double variance = i % 3 ? test_log_uniform(&rng, 1e-20, 1e6) : 0, alpha = test_log_uniform(&rng, 0.01, 1);
         shading s = make_shading(&rng, distance, variance, alpha, i % 2 ? 1 : 3);
         inputs[0] = distance;
         inputs[1] = variance;
@@ -1102,8 +1208,7 @@ static void specular_rounds(void) {
         wanted = shade_exactly(&s, &exponent, &co);
         if (exponent < -70 || co < 0.1 || wanted < 1e-36) continue;
         test_within(&bound, (double)shade(&s), wanted,
-                    wanted * directional((double)fmaxf(s.lobe.sharpness_x, s.lobe.sharpness_y), exponent),
-                    inputs, 3);
+                    wanted * directional((double)fmaxf(s.lobe.sharpness_x, s.lobe.sharpness_y), exponent), inputs, 3);
     }
     test_report(&bound);
 }
@@ -1113,8 +1218,7 @@ static void specular_point_light(void) {
     test_rng rng = {116};
     int i;
     for (i = 0; i < 20000; i++) {
-        double distance = test_log_uniform(&rng, 1e-3, 1e4), alpha = test_log_uniform(&rng, 0.1, 1),
-               inputs[3], wanted;
+        double distance = test_log_uniform(&rng, 1e-3, 1e4), alpha = test_log_uniform(&rng, 0.1, 1), inputs[3], wanted;
         double toward[3], emission[3], co, variance = i % 2 ? 0 : 1e-9 * distance * distance;
         shading s = make_shading(&rng, distance, variance, alpha, 1);
         exact_asg a = exact_of(s.lobe);
@@ -1167,8 +1271,8 @@ static void specular_matches_quadrature(void) {
         c.lobe = exact_of(s.lobe);
         c.sharpness = incoming(&s, c.axis, &log_peak, &inverse_variance);
         if (dot(c.axis, s.normal) < 0.2) continue;
-        wanted = reference_sphere(specular_value, &c, c.axis, c.sharpness) * exp(log_peak) *
-                 inverse_variance / (2 * REFERENCE_PI * REFERENCE_PI * s.alpha * s.alpha);
+        wanted = reference_sphere(specular_value, &c, c.axis, c.sharpness) * exp(log_peak) * inverse_variance /
+                 (2 * REFERENCE_PI * REFERENCE_PI * s.alpha * s.alpha);
         test_within(&bound, (double)shade(&s), wanted, wanted, inputs, 3);
     }
     test_report(&bound);
@@ -1223,7 +1327,8 @@ static void finite_everywhere(void) {
     for (i = 0; i < 200000; i++) {
         asg_lobe a = wild_lobe(&rng), b = test_uniform(&rng) < 0.1 ? a : wild_lobe(&rng);
         lobe_vec3 n = wild_direction(&rng), w = wild_direction(&rng), t = wild_direction(&rng);
-        float alpha_x = fabsf(wild(&rng, 1)), alpha_y = fabsf(wild(&rng, 1)), kappa = fabsf(wild(&rng, 1e30));
+        float alpha_x = fabsf(wild(&rng, 1)), alpha_y = fabsf(wild(&rng, 1)),
+              kappa = lobe_max(fabsf(wild(&rng, 1e30)), 1e-30f);
         sg_lobe g;
         vsgl v;
         double inputs[12];
@@ -1258,13 +1363,12 @@ static void finite_everywhere(void) {
         test_that(finite_value(asg_sg_integral(a, g)), "asg_sg_integral is finite", inputs, 12);
         test_that(finite_value(asg_sg_integral_xu(a, g)), "asg_sg_integral_xu is finite", inputs, 12);
         test_that(finite_value(asg_product_integral(a, b)), "asg_product_integral is finite", inputs, 12);
-        test_that(finite_value(asg_product_integral_xu(a, b)), "asg_product_integral_xu is finite", inputs,
-                  12);
+        test_that(finite_value(asg_product_integral_xu(a, b)), "asg_product_integral_xu is finite", inputs, 12);
         test_that(finite_lobe(asg_convolve(a, kappa)), "asg_convolve is finite", inputs, 12);
         b = asg_ggx_lobe(n, w, alpha_x);
         test_that(finite_lobe(b), "asg_ggx_lobe is finite", inputs, 12);
-        test_that(finite_lobe(asg_ggx_lobe_aniso(n, t, w, alpha_x, alpha_y)), "asg_ggx_lobe_aniso is finite",
-                  inputs, 12);
+        test_that(finite_lobe(asg_ggx_lobe_aniso(n, t, w, alpha_x, alpha_y)), "asg_ggx_lobe_aniso is finite", inputs,
+                  12);
         test_that(finite_value(asg_vsgl_specular(v, i & 1, lobe_scale(t, alpha_x), n, w, alpha_x, b)),
                   "asg_vsgl_specular is finite", inputs, 12);
         test_that(finite_value(asg_vsgl_specular(v, i & 1, v.position, n, w, alpha_y, a)),
@@ -1282,6 +1386,8 @@ const test_case asg_tests[] = {
     {"asg_sg_integral_sharp_limit", sg_integrals_sharp_limit},
     {"asg_product_integral", products_match},
     {"asg_product_integral_rounding", products_round},
+    {"asg_product_integral_saddle", product_exponent_solves},
+    {"asg_product_integral_xu", xu_needs_no_eigenvectors},
     {"asg_weights", weights_are_weights},
     {"asg_weights_turn_smoothly", weights_turn_smoothly},
     {"asg_opposed_lobes", opposed_lobes_part},

@@ -33,8 +33,7 @@ static float *make_image(int kind, int width, int height, unsigned long long see
             if (kind == POWER) value = pow(random, 8);
             if (kind == OCTAVES) {
                 for (i = 0; i < 8; i++) /* 1/f */
-                    value += sin((1 << i) * (6.3 * s * cos(phase[i][0]) + 6.3 * t * sin(phase[i][0])) +
-                                 phase[i][1]) /
+                    value += sin((1 << i) * (6.3 * s * cos(phase[i][0]) + 6.3 * t * sin(phase[i][0])) + phase[i][1]) /
                              (1 << i);
                 value = exp(2 * value);
             }
@@ -49,8 +48,7 @@ static float *make_image(int kind, int width, int height, unsigned long long see
     return image;
 }
 
-static const int sizes[][2] = {{1, 1},   {2, 3},    {1, 97},   {97, 1},   {37, 53},
-                               {64, 64}, {128, 32}, {129, 65}, {200, 255}};
+static const int sizes[][2] = {{1, 1}, {2, 3}, {1, 97}, {97, 1}, {37, 53}, {64, 64}, {128, 32}, {129, 65}, {200, 255}};
 enum { SIZES = (int)(sizeof sizes / sizeof *sizes) };
 
 static fis_pyramid build_pdf(const float *image, int width, int height) {
@@ -83,12 +81,10 @@ static reference make_reference(const float *image, int width, int height) {
     do {
         double *sums;
         int w = halved(width, r.levels);
-        sums = r.level[r.levels] =
-            (double *)calloc((size_t)w * (size_t)halved(height, r.levels), sizeof *sums);
+        sums = r.level[r.levels] = (double *)calloc((size_t)w * (size_t)halved(height, r.levels), sizeof *sums);
         for (y = 0; y < height; y++)
             for (x = 0; x < width; x++)
-                sums[(y >> r.levels) * w + (x >> r.levels)] +=
-                    ldexp((double)image[y * width + x], -2 * r.levels);
+                sums[(y >> r.levels) * w + (x >> r.levels)] += ldexp((double)image[y * width + x], -2 * r.levels);
         level = r.levels++;
     } while (halved(width, level) > 1 || halved(height, level) > 1);
     r.total = ldexp(r.level[level][0], 2 * level);
@@ -137,8 +133,8 @@ static void share_range(const reference *r, double u, double v, double level, do
     *low = DBL_MAX;
     *high = 0;
     for (i = 0; i < 27; i++) {
-        double value = share(r, u + (i % 3 - 1) * 0x1p-23, v + (i / 3 % 3 - 1) * 0x1p-23,
-                             level + (i / 9 - 1) * test_ulp(level));
+        double value =
+            share(r, u + (i % 3 - 1) * 0x1p-23, v + (i / 3 % 3 - 1) * 0x1p-23, level + (i / 9 - 1) * test_ulp(level));
         if (value < *low) *low = value;
         if (value > *high) *high = value;
     }
@@ -184,8 +180,7 @@ static double bisect(const reference *r, double u, double v, double wanted, int 
 static void check_integral(test_bound *bound, int width, int height, int channels, int pdf) {
     size_t count = (size_t)width * (size_t)height * (size_t)channels, i;
     size_t size = fis_pyramid_size(width, height, channels);
-    float *image = (float *)malloc(count * sizeof *image),
-          *memory = (float *)malloc((size + 1) * sizeof *memory);
+    float *image = (float *)malloc(count * sizeof *image), *memory = (float *)malloc((size + 1) * sizeof *memory);
     test_rng rng = {(unsigned long long)(width * 7919 + height)};
     fis_pyramid p;
     double inputs[2];
@@ -206,8 +201,8 @@ static void check_integral(test_bound *bound, int width, int height, int channel
             sum += (double)image[i];
             magnitude += fabs((double)image[i]);
         }
-        test_within(bound, ldexp((double)memory[size - (size_t)channels + (size_t)c], 2 * (p.levels - 1)),
-                    sum, magnitude, inputs, 2);
+        test_within(bound, ldexp((double)memory[size - (size_t)channels + (size_t)c], 2 * (p.levels - 1)), sum,
+                    magnitude, inputs, 2);
     }
     free(memory);
     free(image);
@@ -230,9 +225,8 @@ static void integral(void) {
 }
 
 static void levels(void) {
-    static const int wanted[][3] = {{1, 1, 1},    {2, 1, 2},        {1, 3, 3},
-                                    {4, 4, 3},    {5, 4, 4},        {512, 512, 10},
-                                    {513, 2, 11}, {1920, 1088, 12}, {32768, 32768, 16}};
+    static const int wanted[][3] = {{1, 1, 1},      {2, 1, 2},    {1, 3, 3},        {4, 4, 3},         {5, 4, 4},
+                                    {512, 512, 10}, {513, 2, 11}, {1920, 1088, 12}, {32768, 32768, 16}};
     size_t i;
     for (i = 0; i < sizeof wanted / sizeof *wanted; i++) {
         double input = (double)i;
@@ -284,8 +278,7 @@ static void bad_pixels(void) {
             results[1] = fis_scale(&p, &s, 0, 3) * 1e-3f;
             results[2] = fis_level_density(&p, &s, 3, 1);
             results[3] = fis_scale_density(&p, &s, 3);
-            for (c = 0; c < 4; c++)
-                test_that(results[c] >= 0 && results[c] <= FLT_MAX, "finite", places + i, 1);
+            for (c = 0; c < 4; c++) test_that(results[c] >= 0 && results[c] <= FLT_MAX, "finite", places + i, 1);
         }
     }
     for (i = 0; i < 12; i++) image[i] = i % 3 == 0 ? -1.0f : i % 3 == 1 ? zero / zero : 0.0f;
@@ -347,14 +340,12 @@ static void fetch(void) {
                 u = (float)in[0];
                 v = (float)in[1];
                 fis_fetch(&p, u, v, 0, result);
-                test_that(fabs((double)(result[0] - planes[0][y * width + x])) <=
-                              (width + height) * TEST_EPSILON,
+                test_that(fabs((double)(result[0] - planes[0][y * width + x])) <= (width + height) * TEST_EPSILON,
                           "the centre of a texel gives the texel", in, 2);
                 test_that(result[1] == 1.0f, "a constant stays", in, 2);
                 if (width == 64) { /* a power of two: not diluted */
                     fis_fetch(&p, u, v, (float)(x + y) / 14, result);
-                    test_that(fabs((double)result[1] - 1) <= 2 * TEST_EPSILON,
-                              "a constant stays at all levels", in, 2);
+                    test_that(fabs((double)result[1] - 1) <= 2 * TEST_EPSILON, "a constant stays at all levels", in, 2);
                 }
             }
         }
@@ -434,8 +425,7 @@ static void warp_distribution(void) {
         }
         pdf = build_pdf(image, width, height);
         for (stratified = 0; stratified < 2; stratified++) {
-            int *hits = (int *)calloc((size_t)(4 * width * height), sizeof *hits),
-                bins = 0; /* quarters of texels */
+            int *hits = (int *)calloc((size_t)(4 * width * height), sizeof *hits), bins = 0; /* quarters of texels */
             double chi_square = 0, in[4];
             for (i = 0; i < POINTS; i++) {
                 fis_point point = fis_lattice(i, POINTS);
@@ -466,8 +456,7 @@ static void warp_distribution(void) {
             in[3] = bins - 1;
             test_that(chi_square < chi_square_limit(bins - 1), "chi-square", in, 4);
             if (!stratified) /* random points that are too regular are not */
-                test_that(bins < 100 || chi_square > bins - 1 - 5 * sqrt(2.0 * bins), "chi-square, low", in,
-                          4);
+                test_that(bins < 100 || chi_square > bins - 1 - 5 * sqrt(2.0 * bins), "chi-square, low", in, 4);
             free(hits);
         }
         free_pyramid(pdf);
@@ -476,8 +465,7 @@ static void warp_distribution(void) {
 }
 
 static void warp_support(void) {
-    static const float edges[] = {0,           1e-38f, 0x1p-24f, 0.25f, 0.5f,   0.75f,
-                                  0.99999994f, 1,      -0.1f,    1.1f,  -1e30f, 1e30f};
+    static const float edges[] = {0, 1e-38f, 0x1p-24f, 0.25f, 0.5f, 0.75f, 0.99999994f, 1, -0.1f, 1.1f, -1e30f, 1e30f};
     enum { EDGES = (int)(sizeof edges / sizeof *edges), POINTS = 2000 };
     test_bound bound = test_bound_of("fis.h", "fis_warp", "rel");
     test_rng rng = {5};
@@ -510,8 +498,7 @@ static void warp_support(void) {
                 test_within(&bound, (double)s.density, density, density, in, 5);
                 for (level = 0; level < r.levels; level++) {
                     double wanted =
-                        ldexp(r.level[level][(y >> level) * halved(width, level) + (x >> level)], 2 * level) /
-                        r.total;
+                        ldexp(r.level[level][(y >> level) * halved(width, level) + (x >> level)], 2 * level) / r.total;
                     in[5] = level;
                     test_within(&bound, (double)s.share[level], wanted, wanted, in, 6);
                 }
@@ -651,8 +638,7 @@ static void density(void) {
                 int n = counts[i % 5], corner;
                 float k = factors[factor = i / 5 % 5];
                 count = i % 5;
-                in[0] = kind, in[1] = width, in[2] = height, in[3] = counts[count],
-                in[4] = (double)factors[factor];
+                in[0] = kind, in[1] = width, in[2] = height, in[3] = counts[count], in[4] = (double)factors[factor];
                 in[5] = (double)s.u, in[6] = (double)s.v;
                 for (nearest = 0; nearest < 2; nearest++) {
                     double got = nearest ? (double)fis_level_density_nearest(&pdf, &s, n, k)
@@ -673,8 +659,7 @@ static void density(void) {
                         }
                     }
                     wanted = fmax(0.5 * log2(texels * fmin((double)k / (n * high), 1)), 0);
-                    wanted =
-                        clamped(got, wanted, fmax(0.5 * log2(texels * fmin((double)k / (n * low), 1)), 0));
+                    wanted = clamped(got, wanted, fmax(0.5 * log2(texels * fmin((double)k / (n * low), 1)), 0));
                     test_within(&level[nearest], got, wanted, 1, in, 7);
                     wanted = clamped(factor_got, texels / fmax(n * high, 1), texels / fmax(n * low, 1));
                     test_within(&scale[nearest], factor_got, wanted, wanted, in, 7);
@@ -749,8 +734,7 @@ static void totals(void) {
         memset(&s, 0, sizeof s);
         test_that(fis_scale(&pdf, &s, 0, 8) == 0.0f, "no mass: 0, not infinity", 0, 0);
         test_that(fis_scale_density(&pdf, &s, 8) == 5.0f, "M at most", 0, 0);
-        test_that(fis_level(&pdf, &s, 8, 1) > 1 && fis_level(&pdf, &s, 8, 1) < 3, "a level beside the mass",
-                  0, 0);
+        test_that(fis_level(&pdf, &s, 8, 1) > 1 && fis_level(&pdf, &s, 8, 1) < 3, "a level beside the mass", 0, 0);
         free_pyramid(pdf);
     }
     test_report(&bound);
@@ -766,8 +750,7 @@ static double cell_total(const float *image, int width, int height, fis_cell cel
     for (y = (int)(cell.v0 * height); y < height && y < cell.v1 * height; y++)
         for (x = (int)(cell.u0 * width); x < width && x < cell.u1 * width; x++)
             sum += fmax(fmin(x + 1, cell.u1 * width) - fmax(x, cell.u0 * width), 0) *
-                   fmax(fmin(y + 1, cell.v1 * height) - fmax(y, cell.v0 * height), 0) *
-                   (double)image[y * width + x];
+                   fmax(fmin(y + 1, cell.v1 * height) - fmax(y, cell.v0 * height), 0) * (double)image[y * width + x];
     return sum;
 }
 
@@ -780,8 +763,8 @@ static void check_tiles(const fis_cell *cells, int n, const double *in) {
     memset(cover, 0, sizeof cover);
     for (i = 0; i < n; i++) {
         fis_cell c = cells[i];
-        test_that(c.u0 >= 0 && c.u0 <= c.u1 && c.u1 <= 1 && c.v0 >= 0 && c.v0 <= c.v1 && c.v1 <= 1,
-                  "in the image", in, 4);
+        test_that(c.u0 >= 0 && c.u0 <= c.u1 && c.u1 <= 1 && c.v0 >= 0 && c.v0 <= c.v1 && c.v1 <= 1, "in the image", in,
+                  4);
         area += (c.u1 - c.u0) * (c.v1 - c.v0);
         for (y = (int)ceil(c.v0 * GRID); y < c.v1 * GRID && y < GRID; y++)
             for (x = (int)ceil(c.u0 * GRID); x < c.u1 * GRID && x < GRID; x++) cover[y * GRID + x]++;
@@ -818,8 +801,7 @@ static void split(void) {
                 test_that(cells[n].u0 == 42.0, "n cells", in, 4);
                 check_tiles(cells, n, in);
                 for (i = 0; i < n; i++)
-                    test_within(&mass, cell_total(image, width, height, cells[i]), total / n, total / n, in,
-                                4);
+                    test_within(&mass, cell_total(image, width, height, cells[i]), total / n, total / n, in, 4);
             }
             free(memory);
             free(image);
@@ -834,11 +816,9 @@ static void split(void) {
         table = fis_split_build(memory, image, 8, 8); /* no mass: uniform */
         fis_split(&table, 16, cells);
         for (i = 0; i < 16; i++)
-            test_that(fabs(cells[i].u1 - cells[i].u0 - 0.25) < 1e-12 &&
-                          fabs(cells[i].v1 - cells[i].v0 - 0.25) < 1e-12,
+            test_that(fabs(cells[i].u1 - cells[i].u0 - 0.25) < 1e-12 && fabs(cells[i].v1 - cells[i].v0 - 0.25) < 1e-12,
                       "squares", in, 0);
-        for (i = 0; i < 64; i++)
-            image[i] = i == 9 ? 2.0f : i == 54 ? 6.0f : i % 2 ? -1e3f : 1 / (zero * zero);
+        for (i = 0; i < 64; i++) image[i] = i == 9 ? 2.0f : i == 54 ? 6.0f : i % 2 ? -1e3f : 1 / (zero * zero);
         table = fis_split_build(memory, image, 8, 8);
         test_that(table.sums[80] == 8.0 && table.sums[20] == 2.0, "bad texels are 0", in, 0);
         cells[0].u0 = 42;
@@ -854,8 +834,7 @@ static void cell_sum(void) {
     test_bound bound = test_bound_of("fis.h", "fis_cell_sum", "rel");
     enum { WIDTH = 129, HEIGHT = 65, CHANNELS = 18, CELLS = 300 };
     float *image = (float *)malloc(WIDTH * HEIGHT * CHANNELS * sizeof *image), sums[CHANNELS];
-    float *plane = (float *)malloc(WIDTH * HEIGHT * sizeof *plane),
-          *pdf = make_image(POWER, WIDTH, HEIGHT, 4);
+    float *plane = (float *)malloc(WIDTH * HEIGHT * sizeof *plane), *pdf = make_image(POWER, WIDTH, HEIGHT, 4);
     double *memory = (double *)malloc(fis_split_size(WIDTH, HEIGHT) * sizeof *memory);
     double added[CHANNELS] = {0}, total, magnitude, input;
     fis_cell cells[CELLS + 5];

@@ -128,8 +128,10 @@ int main(int argc, char **argv) {
             test->run();
             printf("%s %s\n", failures ? "FAILED" : "ok    ", test->name);
             fflush(stdout);
-            if (failures) failed++;
-            else passed++;
+            if (failures)
+                failed++;
+            else
+                passed++;
         }
     }
     if (passed + failed == 0) {

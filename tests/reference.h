@@ -63,12 +63,11 @@ static inline void reference_frame(const double axis[3], double u[3], double v[3
    sharpness  [0, 1e9]: f falls off about it like an SG of that sharpness, or more slowly
    azimuths   points of the trapezoid rule on each circle: exact for harmonics below it
 
-   Smooth integrands to 1e-12 once the azimuth is resolved. A kink in azimuth costs up to 2 / azimuths^2, one in the
-   polar angle up to 1e-5.
+   Smooth integrands to 1e-12 once the azimuth is resolved. A kink in azimuth costs up to 2 / azimuths^2, one
+   in the polar angle up to 1e-5.
 */
-static inline double reference_sphere_azimuth(double (*f)(const double w[3], const void *context),
-                                              const void *context, const double axis[3], double sharpness,
-                                              int azimuths) {
+static inline double reference_sphere_azimuth(double (*f)(const double w[3], const void *context), const void *context,
+                                              const double axis[3], double sharpness, int azimuths) {
     const reference_gauss rule = reference_gauss_rule();
     const double peak = 1 / sqrt(1 + sharpness), growth = 1.5;
     double u[3], v[3], from = 0, to = peak < 0.4 ? peak : 0.4, sum = 0;
@@ -94,8 +93,8 @@ static inline double reference_sphere_azimuth(double (*f)(const double w[3], con
 }
 
 /* The same with 64 azimuths: 1e-12 for SGs up to 1e8, also where the peak is a few widths off the axis. */
-static inline double reference_sphere(double (*f)(const double w[3], const void *context),
-                                      const void *context, const double axis[3], double sharpness) {
+static inline double reference_sphere(double (*f)(const double w[3], const void *context), const void *context,
+                                      const double axis[3], double sharpness) {
     return reference_sphere_azimuth(f, context, axis, sharpness, 64);
 }
 

@@ -319,15 +319,12 @@ static void test_vectors(void) {
         double size;
         begin();
         size = log_uniform(1e-29, 1e37);
-        within(&bound,
-               distance(wide(lobe_normalize_or(narrow(combine(size, v, 0, v)), lobe_vector(0, 0, 0))), v), 0,
+        within(&bound, distance(wide(lobe_normalize_or(narrow(combine(size, v, 0, v)), lobe_vector(0, 0, 0))), v), 0,
                1);
     }
-    that(lobe_normalize_or(lobe_vector(0, 0, 0), lobe_vector(0, 1, 0)).y == 1,
-         "the fallback of a null vector");
+    that(lobe_normalize_or(lobe_vector(0, 0, 0), lobe_vector(0, 1, 0)).y == 1, "the fallback of a null vector");
     for (i = 0; i < 1000; i++) {
-        vec a = random_direction(), b = random_direction(), c = wide(lobe_cross(narrow(a), narrow(b))),
-            wanted;
+        vec a = random_direction(), b = random_direction(), c = wide(lobe_cross(narrow(a), narrow(b))), wanted;
         begin();
         wanted.x = a.y * b.z - a.z * b.y;
         wanted.y = a.z * b.x - a.x * b.z;
@@ -444,8 +441,7 @@ static void test_normalize(void) {
         g = lobe_of(random_axis(), log_uniform(bound.low, bound.high), uniform(-50, 50));
         n = sg_normalize(g);
         within(&bound, exp((double)n.log_amplitude) * exact_integral((double)g.sharpness), 1, 1);
-        that(!memcmp(&n.axis, &g.axis, sizeof n.axis) && n.sharpness == g.sharpness,
-             "normalising keeps the shape");
+        that(!memcmp(&n.axis, &g.axis, sizeof n.axis) && n.sharpness == g.sharpness, "normalising keeps the shape");
     }
     test_report(&bound);
 }
@@ -465,14 +461,13 @@ static void test_product(void) {
         g = sg_product(a, b);
         p = multiply_lobes(a, b);
         ln = (double)a.log_amplitude + (double)b.log_amplitude + p.log_loss;
-        within(
-            &peak, exp((double)g.log_amplitude), exp(ln),
-            conditioned(1, ln, fabs((double)a.log_amplitude) + fabs((double)b.log_amplitude) - p.log_loss));
+        within(&peak, exp((double)g.log_amplitude), exp(ln),
+               conditioned(1, ln, fabs((double)a.log_amplitude) + fabs((double)b.log_amplitude) - p.log_loss));
         within(&sharpness, (double)g.sharpness, p.sharpness, p.sum * TEST_EPSILON);
         if (p.sharpness > 1e-5 * p.sum)
             within(&axis, distance(unit(wide(g.axis)), p.axis), 0, p.sum / p.sharpness * TEST_EPSILON);
-        if (a.sharpness == b.sharpness && lobe_add(a.axis, b.axis).x == 0 &&
-            lobe_add(a.axis, b.axis).y == 0 && lobe_add(a.axis, b.axis).z == 0)
+        if (a.sharpness == b.sharpness && lobe_add(a.axis, b.axis).x == 0 && lobe_add(a.axis, b.axis).y == 0 &&
+            lobe_add(a.axis, b.axis).z == 0)
             that(g.sharpness == 0 && !memcmp(&g.axis, &a.axis, sizeof g.axis), "equal lobes opposed");
     }
     test_report(&peak);
@@ -556,8 +551,8 @@ static void test_product_integral_approx_model(void) {
         draw_pair(bound.low, bound.high, &a, &b);
         p = multiply_lobes(a, b);
         aligned = exact_integral(p.sum);
-        within(&bound, (double)sg_product_integral_approx(a, b),
-               exp(p.log_loss) * exact_integral(p.sharpness), aligned);
+        within(&bound, (double)sg_product_integral_approx(a, b), exp(p.log_loss) * exact_integral(p.sharpness),
+               aligned);
     }
     for (i = 0; i < 1000; i++) { /* aligned; the sums where exp(-2 sum) stands clear of rounding */
         sg_lobe a = lobe_of(lobe_vector(0, 0, 1), 0, 0), b = a;
@@ -649,17 +644,14 @@ static void test_toksvig(void) {
         wanted = l < 0.01 ? l / 3 - l * l * l / 45 : 1 / tanh(l) - 1 / l;
         within(&model, (double)sg_mean_length((float)l), wanted, 1);
         that(l < 10 || fabs((double)sg_mean_length((float)l) - wanted) < 1 / (l * l) + 1e-7, "below 1 / l^2");
-        r = i % 2 ? log_uniform(inverse.low, inverse.high)
-                  : record((double)(1 - (float)log_uniform(6e-8, 1)));
+        r = i % 2 ? log_uniform(inverse.low, inverse.high) : record((double)(1 - (float)log_uniform(6e-8, 1)));
         if (r < 1)
-            within(&inverse, (double)sg_sharpness_from_mean_length((float)r), r / (1 - r),
-                   test_ulp(r / (1 - r)));
+            within(&inverse, (double)sg_sharpness_from_mean_length((float)r), r / (1 - r), test_ulp(r / (1 - r)));
         l = log_uniform(1e-20, 1e5);
         within(&round_trip, (double)sg_sharpness_from_mean_length(sg_mean_length((float)l)), l,
                l * (l + 2) * TEST_EPSILON);
     }
-    that(sg_sharpness_from_mean_length(1) == 0x1p25f && sg_sharpness_from_mean_length(0) == 0,
-         "Toksvig's ends");
+    that(sg_sharpness_from_mean_length(1) == 0x1p25f && sg_sharpness_from_mean_length(0) == 0, "Toksvig's ends");
     that(sg_sharpness_from_mean_length(1.0001f) == 0x1p25f, "a mean length that rounding made too long");
     test_report(&mean);
     test_report(&model);
@@ -752,8 +744,7 @@ static vpl draw_vpl(double extent) {
 }
 
 static vsgl_moments moments_of(vpl p) {
-    return vsgl_moments_from_vpl(p.offset, p.normal, p.wi, p.power[VSGL_DIFFUSE], p.power[VSGL_SPECULAR],
-                                 p.alpha);
+    return vsgl_moments_from_vpl(p.offset, p.normal, p.wi, p.power[VSGL_DIFFUSE], p.power[VSGL_SPECULAR], p.alpha);
 }
 
 static double exact_mean(lobe_vec3 colour) {
@@ -787,8 +778,7 @@ static void test_moments(void) {
             vec axis = exact_emission(p, k, &l);
             w *= l / (l + 1);
             that(!memcmp(&m.power[k], &p.power[k], sizeof p.power[k]), "a VPL's power");
-            within(&bound, distance(wide(m.direction[k]), combine(w, axis, 0, axis)), 0,
-                   w * 2 * TEST_EPSILON);
+            within(&bound, distance(wide(m.direction[k]), combine(w, axis, 0, axis)), 0, w * 2 * TEST_EPSILON);
         }
         within(&bound, distance(wide(m.position), combine(weight, wide(p.offset), 0, wide(p.offset))), 0,
                weight * length(wide(p.offset)) * 2 * TEST_EPSILON);
@@ -892,8 +882,7 @@ static void test_vsgl_of_a_disc(void) {
             sums[i] = moments_of(p);
         }
         for (n = VPLS / 2; n; n /= 2) {
-            for (i = 0; i < n; i++)
-                sums[i] = vsgl_moments_scale(vsgl_moments_add(sums[i], sums[i + n]), 0.5f);
+            for (i = 0; i < n; i++) sums[i] = vsgl_moments_scale(vsgl_moments_add(sums[i], sums[i + n]), 0.5f);
         }
         mean = combine(1 / weights, mean, 0, mean);
         variance = squares / weights - dot(mean, mean);
@@ -903,8 +892,7 @@ static void test_vsgl_of_a_disc(void) {
         for (k = 0; k < 2; k++) {
             double r = length(direction[k]) / powers[k];
             within(&toksvig, (double)v.emission[k].sharpness, r / (1 - r), r / (1 - r));
-            within(&toksvig,
-                   exact_mean(v.intensity[k]) * exact_integral((double)v.emission[k].sharpness) * VPLS,
+            within(&toksvig, exact_mean(v.intensity[k]) * exact_integral((double)v.emission[k].sharpness) * VPLS,
                    powers[k], powers[k]);
             that(distance(wide(v.emission[k].axis), unit(direction[k])) < 4e-6, "the axis of a disc");
         }
@@ -921,13 +909,10 @@ static void test_vsgl_without_power(void) {
     memset(&m, 0, sizeof m);
     v = vsgl_from_moments(m, lobe_vector(1, 2, 3));
     begin();
-    that(v.position.x == 1 && v.position.y == 2 && v.position.z == 3 && v.variance == 0,
-         "no power: at the origin");
+    that(v.position.x == 1 && v.position.y == 2 && v.position.z == 3 && v.variance == 0, "no power: at the origin");
     for (k = 0; k < 2; k++) {
-        that(v.intensity[k].x == 0 && v.intensity[k].y == 0 && v.intensity[k].z == 0,
-             "no power: no intensity");
-        that(finite_lobe(v.emission[k]) && fabs(length(wide(v.emission[k].axis)) - 1) < 1e-6,
-             "no power: an axis");
+        that(v.intensity[k].x == 0 && v.intensity[k].y == 0 && v.intensity[k].z == 0, "no power: no intensity");
+        that(finite_lobe(v.emission[k]) && fabs(length(wide(v.emission[k].axis)) - 1) < 1e-6, "no power: an axis");
     }
 }
 
@@ -949,8 +934,7 @@ static lit_point draw_lit_point(void) {
     l = pick(8) ? log_uniform(1e-3, 3e7) : record(0);
     away = pick(16) ? log_uniform(1e-3, 1e4) : record(0);
     s.light.variance = (float)(pick(4) ? log_uniform(1e-12, 1e4) : record(0));
-    if (pick(4) == 0)
-        s.light.variance = (float)record((double)(float)(away * away / (l + 1e-9))); /* as sharp */
+    if (pick(4) == 0) s.light.variance = (float)record((double)(float)(away * away / (l + 1e-9))); /* as sharp */
     s.light.position = narrow(combine(pick(2) * 100, random_direction(), 0, random_direction()));
     to_light = random_axis();
     s.point = narrow(combine(1, wide(s.light.position), -away, wide(to_light)));
@@ -1027,12 +1011,10 @@ static void test_vsgl_diffuse(void) {
         lit_point s = draw_lit_point();
         incoming in = exact_incoming(s);
         double got = (double)vsgl_diffuse(s.light, s.component, s.point, s.normal);
-        double overhead = in.aligned * exp(in.lobe.log_loss) / PI,
-               cosine = dot(in.lobe.axis, unit(wide(s.normal)));
+        double overhead = in.aligned * exp(in.lobe.log_loss) / PI, cosine = dot(in.lobe.axis, unit(wide(s.normal)));
         double unit_of_error = conditioned(in.aligned / PI, in.lobe.log_loss, in.size);
         if (is_singular(s)) continue;
-        if (in.lobe.sharpness > 0)
-            unit_of_error *= in.lobe.sum / in.lobe.sharpness; /* how uncertain the axis is */
+        if (in.lobe.sharpness > 0) unit_of_error *= in.lobe.sum / in.lobe.sharpness; /* how uncertain the axis is */
         within(&bound, got, overhead * fmax(0, cosine), unit_of_error);
         if (i % 16 == 0 && s.light.variance > 0 && in.lobe.sharpness < 1e10)
             that(got <= 4 * overhead * exact_cosine(in.lobe.sharpness, cosine) + bound.limit * unit_of_error,
@@ -1058,15 +1040,13 @@ static void test_vsgl_diffuse_model(void) {
         lit_point s = draw_lit_point();
         incoming in = exact_incoming(s);
         double axis[3], cosine = fmax(0, dot(in.lobe.axis, unit(wide(s.normal)))), radiance;
-        if (in.lobe.log_loss < -20 || s.light.variance == 0 || in.lobe.sum > 1e5 * (1 + in.lobe.sharpness))
-            continue;
+        if (in.lobe.log_loss < -20 || s.light.variance == 0 || in.lobe.sum > 1e5 * (1 + in.lobe.sharpness)) continue;
         if (in.lobe.sharpness > 1e5 || in.lobe.sharpness < 0.01 * in.lobe.sum) continue;
         axis[0] = in.lobe.axis.x;
         axis[1] = in.lobe.axis.y;
         axis[2] = in.lobe.axis.z;
         radiance = reference_sphere(incoming_radiance, &s, axis, in.lobe.sharpness) / PI;
-        within(&bound, (double)vsgl_diffuse(s.light, s.component, s.point, s.normal), radiance * cosine,
-               radiance);
+        within(&bound, (double)vsgl_diffuse(s.light, s.component, s.point, s.normal), radiance * cosine, radiance);
     }
     test_report(&bound);
 }
@@ -1133,8 +1113,7 @@ static void check_finite_light(void) {
         vsgl_moments_from_vpl(wild_vector(-140, 16), normal, wi, wild_colour(), wild_colour(), wild(-140, 0));
     vsgl_moments n =
         vsgl_moments_from_vpl(wild_vector(-140, 16), wi, normal, wild_colour(), wild_colour(), wild(-140, 0));
-    vsgl v =
-        vsgl_from_moments(vsgl_moments_scale(vsgl_moments_add(m, n), wild(-20, 0)), wild_vector(-140, 16));
+    vsgl v = vsgl_from_moments(vsgl_moments_scale(vsgl_moments_add(m, n), wild(-20, 0)), wild_vector(-140, 16));
     int k;
     if (pick(4) == 0) point = v.position;
     that(finite_vector(v.position) && finite_bits(v.variance) && v.variance >= 0, "finite vsgl_from_moments");

@@ -18,9 +18,9 @@ typedef struct {
 } test_case;
 
 typedef struct {
-    char label[96];         /* "sg_integral ulp" */
+    char label[96]; /* "sg_integral ulp" */
     double limit, low, high;
-    double worst;           /* largest error seen, in the bound's unit */
+    double worst; /* largest error seen, in the bound's unit */
 } test_bound;
 
 /* The tag of one function and kind in a header; a missing tag fails the test and gives a limit of 0. */

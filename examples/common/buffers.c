@@ -1,5 +1,6 @@
 #include "buffers.h"
 #include "parallel.h"
+#include "progress.h"
 #include <stdlib.h>
 
 static buffer allocate(int width, int height) {
@@ -19,6 +20,7 @@ buffer buffer_camera(const scene *world, int width, int height) {
     buffer b = allocate(width, height);
     vec3 forward = vec3_normalize(lobe_sub(world->eye.target, world->eye.position)), right, up;
     float tangent = tanf(0.5f * world->eye.field_of_view), aspect = (float)width / (float)height;
+    progress line = progress_begin("camera", height);
     int row;
     if (!b.texels) return b;
     scene_frame(forward, &right, &up);
@@ -33,7 +35,9 @@ buffer buffer_camera(const scene *world, int width, int height) {
             t->valid = scene_trace(world, world->eye.position, dir, &t->hit);
             t->view = lobe_scale(dir, -1);
         }
+        progress_step(&line);
     }
+    progress_end(&line);
     return b;
 }
 
@@ -66,8 +70,7 @@ buffer buffer_rsm(const scene *world, int size) {
                                       ((float)row + 0.5f) / (float)size, &solid_angle);
             t->valid = scene_trace(world, world->spot.position, dir, &t->hit);
             t->view = lobe_scale(dir, -1);
-            if (t->valid)
-                t->flux = lobe_scale(spot_intensity(&world->spot, dir), solid_angle / (float)(size * size));
+            if (t->valid) t->flux = lobe_scale(spot_intensity(&world->spot, dir), solid_angle / (float)(size * size));
         }
     }
     return b;

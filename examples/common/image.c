@@ -180,8 +180,10 @@ const char *image_check_path(const char *path) {
         fclose(file);
         remove(part);
         file = fopen(path, "r+b"); /* an existing file, or directory, must be one that can be replaced */
-        if (file) fclose(file);
-        else if (errno != ENOENT) wrong = strerror(errno);
+        if (file)
+            fclose(file);
+        else if (errno != ENOENT)
+            wrong = strerror(errno);
     } else {
         wrong = strerror(errno);
     }

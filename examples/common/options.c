@@ -8,8 +8,10 @@
 static void usage(FILE *to, const options *o, const char *program, const char *about) {
     int i;
     fprintf(to, "usage: %s [options]\n%s\n\n", program, about);
-    fprintf(to, "  --size WxH       of each image in pixels, 16x16 to 4096x4096 (default %dx%d)\n", o->width, o->height);
-    fprintf(to, "  --lights N,...   numbers of lights to try, up to %d of them, 1 to 65536 (default ", OPTIONS_MAX_LIGHTS);
+    fprintf(to, "  --size WxH       of each image in pixels, 16x16 to 4096x4096 (default %dx%d)\n", o->width,
+            o->height);
+    fprintf(to, "  --lights N,...   numbers of lights to try, up to %d of them, 1 to 65536 (default ",
+            OPTIONS_MAX_LIGHTS);
     for (i = 0; i < o->light_counts; i++) fprintf(to, "%s%d", i ? "," : "", o->lights[i]);
     fprintf(to, ")\n");
     fprintf(to, "  --samples N      paths per pixel of the reference, 2 to 1000000 (default %d)\n", o->samples);

@@ -3,9 +3,9 @@
 #define PARALLEL_H
 
 #ifdef _OPENMP
-#    define PARALLEL_FOR _Pragma("omp parallel for schedule(dynamic, 1)")
+#define PARALLEL_FOR _Pragma("omp parallel for schedule(dynamic, 1)")
 #else
-#    define PARALLEL_FOR
+#define PARALLEL_FOR
 #endif
 
 #endif

@@ -12,8 +12,9 @@ typedef struct {
 } guide;
 
 static double reflected_flux(const texel *t) {
-    return t->valid ? (double)lobe_mean(t->flux) * (double)lobe_mean(lobe_add(t->hit.look.diffuse, t->hit.look.specular))
-                    : 0;
+    return t->valid
+               ? (double)lobe_mean(t->flux) * (double)lobe_mean(lobe_add(t->hit.look.diffuse, t->hit.look.specular))
+               : 0;
 }
 
 static void guide_free(guide *g) {
@@ -43,8 +44,10 @@ static int guide_find(const guide *g, double u) {
     double wanted = u * g->sums[high];
     while (low < high) {
         int middle = low + (high - low) / 2;
-        if (g->sums[middle] > wanted) high = middle;
-        else low = middle + 1;
+        if (g->sums[middle] > wanted)
+            high = middle;
+        else
+            low = middle + 1;
     }
     return low;
 }
@@ -57,8 +60,8 @@ static double guide_density(const guide *g, int index) {
 
 /* Points of a low-discrepancy sequence in five dimensions (Roberts 2018), shifted by a random amount per pixel. */
 enum { DIMENSIONS = 5 };
-static const double steps[DIMENSIONS] = {0.8812714616335696, 0.7766393890897682, 0.6844301295853426,
-                                         0.6031687406857282, 0.5315553977157913};
+static const double steps[DIMENSIONS] = {0.8812714616335696, 0.7766393890897682, 0.6844301295853426, 0.6031687406857282,
+                                         0.5315553977157913};
 
 static double hash(unsigned pixel, unsigned dimension, unsigned seed) {
     unsigned x = pixel * 0x9E3779B1u + dimension * 0x85EBCA77u + seed * 0xC2B2AE3Du;
@@ -131,9 +134,10 @@ static vec3 sample_light(const scene *world, const guide *g, const texel *pixel,
     return lobe_scale(power, (float)((double)(cos_point * cos_hit / distance2) * spread / density));
 }
 
-int path_trace_indirect(const scene *world, const buffer *view, int samples, unsigned seed, vec3 *image) {
+int path_trace_indirect(const scene *world, const buffer *view, int samples, unsigned seed, vec3 *image,
+                        const char *label) {
     guide g = guide_build(world);
-    progress line = progress_begin("reference", view->height);
+    progress line = progress_begin(label, view->height);
     int row;
     if (!g.sums) return 0;
     PARALLEL_FOR

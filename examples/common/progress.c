@@ -1,9 +1,9 @@
 #include "progress.h"
 #include <stdio.h>
 #ifdef _OPENMP
-#    include <omp.h>
+#include <omp.h>
 #else
-#    include <time.h>
+#include <time.h>
 #endif
 
 double progress_clock(void) {
@@ -19,27 +19,28 @@ progress progress_begin(const char *label, int total) {
     p.label = label;
     p.done = 0;
     p.total = total;
+    p.visible = 0;
     p.started = progress_clock();
-    p.shown = p.started + 800; /* first shown a second after the beginning */
+    p.next = p.started + 1000;
     return p;
 }
 
 void progress_step(progress *p) {
 #ifdef _OPENMP
-#    pragma omp critical(progress_line)
+#pragma omp critical(progress_line)
 #endif
     {
         double now = progress_clock();
         p->done++;
-        if (now - p->shown > 200) {
-            p->shown = now;
-            fprintf(stderr, "\r%s: %3d %%  ", p->label, 100 * p->done / p->total);
+        if (now > p->next) {
+            p->next = now + 200;
+            p->visible = 1;
+            fprintf(stderr, "\r%s: %3.0f %%  ", p->label, 100.0 * p->done / p->total);
             fflush(stderr);
         }
     }
 }
 
-double progress_end(progress *p) {
-    if (p->shown < progress_clock() && p->shown != p->started + 800) fprintf(stderr, "\r%*s\r", 60, "");
-    return progress_clock() - p->started;
+void progress_end(const progress *p) {
+    if (p->visible) fprintf(stderr, "\r%60s\r", "");
 }

@@ -7,16 +7,16 @@ double progress_clock(void);
 
 typedef struct {
     const char *label;
-    int done, total;
-    double started, shown;
+    int done, total, visible;
+    double started, next; /* when the line is to be shown again */
 } progress;
 
 progress progress_begin(const char *label, int total);
 
-/* One more of the total is done; may be called from any thread. Returns nothing and costs little. */
+/* One more of the total is done; may be called from any thread. */
 void progress_step(progress *p);
 
-/* Wipes the line if one was shown; returns the milliseconds since the beginning. */
-double progress_end(progress *p);
+/* Wipes the line if it was shown. */
+void progress_end(const progress *p);
 
 #endif

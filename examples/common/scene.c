@@ -125,11 +125,15 @@ static float hit_round(const shape *s, vec3 o, vec3 d, float start, vec3 *normal
 
 static float hit_shape(const shape *s, vec3 o, vec3 d, float start, vec3 *normal) {
     switch (s->kind) {
-    case SHAPE_QUAD: return hit_quad(s, o, d, start, normal);
-    case SHAPE_BOX: return hit_box(s, o, d, start, normal);
-    case SHAPE_SPHERE: return hit_sphere(s, o, d, start, normal);
+    case SHAPE_QUAD:
+        return hit_quad(s, o, d, start, normal);
+    case SHAPE_BOX:
+        return hit_box(s, o, d, start, normal);
+    case SHAPE_SPHERE:
+        return hit_sphere(s, o, d, start, normal);
     case SHAPE_COLUMN:
-    case SHAPE_RING: return hit_round(s, o, d, start, normal);
+    case SHAPE_RING:
+        return hit_round(s, o, d, start, normal);
     }
     return SCENE_FAR;
 }
@@ -239,7 +243,7 @@ scene scene_room(void) {
     s->inner_radius = 0.65f;
     s->height = 0.3f;
 
-    s = add(&world, SHAPE_COLUMN, plain(lobe_vector(0.6f, 0.6f, 0.62f), 0.15f, 0.3f), lobe_vector(-1.1f, 0, -1.1f));
+    s = add(&world, SHAPE_COLUMN, plain(lobe_vector(0.6f, 0.6f, 0.62f), 0.15f, 0.3f), lobe_vector(-0.95f, 0, -1.2f));
     s->radius = 0.22f;
     s->height = 1.7f;
 

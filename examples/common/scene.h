@@ -23,12 +23,12 @@ typedef enum { SHAPE_QUAD, SHAPE_BOX, SHAPE_SPHERE, SHAPE_COLUMN, SHAPE_RING } s
 typedef struct {
     shape_kind kind;
     material look;
-    vec3 center;               /* of quad, box and sphere; foot of the axis of column and ring */
-    vec3 edge_u, edge_v;       /* quad: half edges; its front is where edge_u x edge_v points */
-    vec3 half_size;            /* box */
-    float turn;                /* box: angle about y */
-    float radius, height;      /* sphere, column, ring: outer radius */
-    float inner_radius;        /* ring */
+    vec3 center;          /* of quad, box and sphere; foot of the axis of column and ring */
+    vec3 edge_u, edge_v;  /* quad: half edges; its front is where edge_u x edge_v points */
+    vec3 half_size;       /* box */
+    float turn;           /* box: angle about y */
+    float radius, height; /* sphere, column, ring: outer radius */
+    float inner_radius;   /* ring */
 } shape;
 
 typedef struct {

@@ -22,7 +22,8 @@ static inline int shadow_map_texel(vec3 dir) {
     v = dir.z < 0 ? folded_y : y;
     u = (u * 0.5f + 0.5f) * (float)SHADOW_MAP_SIZE;
     v = (v * 0.5f + 0.5f) * (float)SHADOW_MAP_SIZE;
-    return (int)lobe_min(v, (float)SHADOW_MAP_SIZE - 1) * SHADOW_MAP_SIZE + (int)lobe_min(u, (float)SHADOW_MAP_SIZE - 1);
+    return (int)lobe_min(v, (float)SHADOW_MAP_SIZE - 1) * SHADOW_MAP_SIZE +
+           (int)lobe_min(u, (float)SHADOW_MAP_SIZE - 1);
 }
 
 /* 1 where a point with the given normal sees the light, else 0. The bias grows with the slope: a texel is seen under
