@@ -98,13 +98,14 @@ static void find_visibility(const scene *world, const vsgl *lights, int count, s
     progress_end(&line);
 }
 
-enum { BLOCK = 512 };
+enum { BLOCK = 256 };
 
 /* A run of pixels as planes: the loops over them then become vector code. */
 typedef struct {
     float position[3][BLOCK], normal[3][BLOCK], view[3][BLOCK], alpha[BLOCK];
     float x[3][BLOCK], y[3][BLOCK], z[3][BLOCK], sharpness_x[BLOCK], sharpness_y[BLOCK]; /* reflection lobe */
-    float visible[BLOCK];
+    int texel[BLOCK];
+    float depth[BLOCK], visible[BLOCK];          /* of a light's shadow map */
     float diffuse[3][BLOCK], specular[3][BLOCK]; /* sums over lights, per unit of reflectance */
 } pixel_block;
 
@@ -137,6 +138,15 @@ static void fill_block(pixel_block *b, const texel *pixels, int count) {
     }
 }
 
+/* Whether each pixel sees the light; what vectorises in a loop of its own. */
+static void look_up(pixel_block *b, const shadow_map *map) {
+    const vec3 light = map->position;
+    int i;
+    for (i = 0; i < BLOCK; i++)
+        b->texel[i] = shadow_map_probe(light, load(b->position, i), load(b->normal, i), &b->depth[i]);
+    for (i = 0; i < BLOCK; i++) b->visible[i] = b->depth[i] <= map->distances[b->texel[i]] ? 1.0f : 0.0f;
+}
+
 /* Adds one component of one light to every pixel of a block. */
 static void shade_component(pixel_block *b, const vsgl *light, int k) {
     const vsgl v = *light;
@@ -163,13 +173,13 @@ static void shade_component(pixel_block *b, const vsgl *light, int k) {
     }
 }
 
-static void shade_block(pixel_block *b, const texel *pixels, int count, const vsgl *lights, const shadow_map *maps,
-                        int light_count, vec3 *radiance) {
+static void shade_block(const texel *pixels, int count, const vsgl *lights, const shadow_map *maps, int light_count,
+                        vec3 *radiance) {
+    pixel_block block, *b = &block;
     int i, k, light;
     fill_block(b, pixels, count);
     for (light = 0; light < light_count; light++) {
-        for (i = 0; i < count; i++)
-            b->visible[i] = shadow_map_visibility(&maps[light], load(b->position, i), load(b->normal, i));
+        look_up(b, &maps[light]);
         for (k = 0; k < 2; k++) {
             if (lobe_mean(lights[light].intensity[k]) > 0) shade_component(b, &lights[light], k);
         }
@@ -188,16 +198,14 @@ static void shade(const buffer *view, const vsgl *lights, const shadow_map *maps
                   const char *label) {
     const int pixels = view->width * view->height, blocks = (pixels + BLOCK - 1) / BLOCK;
     progress line = progress_begin(label, blocks);
-    pixel_block *storage = (pixel_block *)allocate((size_t)blocks * sizeof *storage);
     int block;
     PARALLEL_FOR
     for (block = 0; block < blocks; block++) {
         int first = block * BLOCK, count = pixels - first < BLOCK ? pixels - first : BLOCK;
-        shade_block(&storage[block], view->texels + first, count, lights, maps, light_count, indirect->pixels + first);
+        shade_block(view->texels + first, count, lights, maps, light_count, indirect->pixels + first);
         progress_step(&line);
     }
     progress_end(&line);
-    free(storage);
 }
 
 /* ---- what surrounds the pipeline ---- */

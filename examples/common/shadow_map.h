@@ -14,9 +14,10 @@ typedef struct {
 /* Looks for surfaces farther than `start` from the light. */
 void shadow_map_render(shadow_map *map, const scene *world, vec3 position, float start);
 
-/* Index of the map's texel in a direction of any length but 0. */
+/* Index of the map's texel in a direction of any length. */
 static inline int shadow_map_texel(vec3 dir) {
-    float scale = 1 / (fabsf(dir.x) + fabsf(dir.y) + fabsf(dir.z)), x = dir.x * scale, y = dir.y * scale, u, v;
+    float scale = 1 / lobe_max(fabsf(dir.x) + fabsf(dir.y) + fabsf(dir.z), LOBE_TINY), x = dir.x * scale,
+          y = dir.y * scale, u, v;
     float folded_x = (1 - fabsf(y)) * (x < 0 ? -1.0f : 1.0f), folded_y = (1 - fabsf(x)) * (y < 0 ? -1.0f : 1.0f);
     u = dir.z < 0 ? folded_x : x;
     v = dir.z < 0 ? folded_y : y;
@@ -26,17 +27,14 @@ static inline int shadow_map_texel(vec3 dir) {
            (int)lobe_min(u, (float)SHADOW_MAP_SIZE - 1);
 }
 
-/* 1 where a point with the given normal sees the light, else 0. The bias grows with the slope: a texel is seen under
-   an angle of about 1.7 / size. */
-static inline float shadow_map_visibility(const shadow_map *map, vec3 point, vec3 normal) {
-    vec3 offset = lobe_sub(point, map->position);
-    float distance2 = lobe_dot(offset, offset), distance = sqrtf(distance2);
+/* Where to look for a point with the given normal: its texel, and the depth that must not lie behind what is seen there.
+   The bias grows with the slope: a texel is seen under an angle of about 1.7 / size. */
+static inline int shadow_map_probe(vec3 light, vec3 point, vec3 normal, float *depth) {
+    vec3 offset = lobe_sub(point, light);
+    float distance2 = lobe_max(lobe_dot(offset, offset), LOBE_TINY), distance = sqrtf(distance2);
     float cosine = lobe_max(-lobe_dot(offset, normal), 0.1f * distance); /* times distance */
-    float bias = (1.7f / (float)SHADOW_MAP_SIZE) * distance2 * distance / cosine * 0.5f;
-    float seen;
-    if (!(distance > 0)) return 1;
-    seen = map->distances[shadow_map_texel(offset)];
-    return distance - bias - 0.01f <= seen ? 1.0f : 0.0f;
+    *depth = distance - 0.5f * (1.7f / (float)SHADOW_MAP_SIZE) * distance2 * (distance / cosine) - 0.01f;
+    return shadow_map_texel(offset);
 }
 
 #endif
