@@ -179,7 +179,7 @@ LOBE_API float lobe_exp2_split(float x, float *whole, float *power) {
     return x - *whole;
 }
 
-/* 2^x to 1.1e-7 relative; 0 below -126.5, 2^127.4 above 127.4. */
+/* 2^x; 0 below -126.5, 2^127.4 above 127.4.   [bound lobe_exp2 rel 1.1e-7] */
 LOBE_API float lobe_exp2(float x) {
     float whole, power, r = lobe_exp2_split(x, &whole, &power);
     return power * (1 + r * lobe_exp2_slope(r));
@@ -189,8 +189,9 @@ LOBE_API float lobe_exp(float x) {
     return lobe_exp2(LOBE_LOG2E * x);
 }
 
-/* (1 - e^-x) / x for x >= 0 to 2.5e-7: 1 at 0, 0 at infinity. With -x log2(e) = k + r, all terms are positive, and the
-   last is exactly 0 for k = 0, in whatever order they are added. */
+/* (1 - e^-x) / x for x >= 0; 1 at 0, 0 at infinity.   [bound lobe_phi rel 2.5e-7]
+   With -x log2(e) = k + r, all terms are positive, and the last is exactly 0 for k = 0, in whatever order they are added.
+*/
 LOBE_API float lobe_phi(float x) {
     float whole, power, r, slope;
     r = lobe_exp2_split(-LOBE_LOG2E * x, &whole, &power);
@@ -401,6 +402,7 @@ LOBE_API float sg_mean_length(float sharpness) {
 
    Rounding: <= 2 ulp of the given length's own value   [bound sg_sharpness_from_mean_length ulp 2 over 1e-30 1]
    Model:    exact inverse of sg_mean_length; a round trip loses (sharpness + 2) 2^-23 relative
+             [bound sg_sharpness_from_mean_length round_trip 0x1p-23]
    Source:   Toksvig 2005; 000, section 3.1
 */
 LOBE_API float sg_sharpness_from_mean_length(float mean_length) {
@@ -475,7 +477,7 @@ LOBE_API sg_lobe sg_phong_lobe(lobe_vec3 normal, lobe_vec3 wi, float exponent) {
    specular   reflected power of the specular component, Phi R_s
    alpha      GGX roughness of the specular component
 
-   Rounding: <= 4 ulp of each vector's length, of each scalar
+   Rounding: <= 4 ulp of each vector's length, of each scalar   [bound vsgl_moments_from_vpl ulp 4]
    Model:    000, section 3.1: normalised SG lobes, Toksvig's mean length
    Source:   000, sections 3.1 to 3.3
 */
@@ -524,7 +526,8 @@ LOBE_API vsgl_moments vsgl_moments_scale(vsgl_moments m, float s) {
    returns    mean position, variance >= 0, a lobe of peak 1 and the peak intensity for each component
 
    Rounding: the variance loses (|mean - origin|^2 + variance) 2^-21 absolute: keep the origin near; the sharpness
-             loses (sharpness + 4) 2^-21 relative and saturates at 2^25   [bound vsgl_from_moments variance 0x1p-21]
+             loses (sharpness + 4) 2^-21 relative and saturates at 2^25
+             [bound vsgl_from_moments variance 0x1p-21] [bound vsgl_from_moments sharpness 0x1p-21]
    Model:    000: one SG for each component, one isotropic Gaussian for the positions
    Source:   000, sections 3.1 and 3.2
 */
@@ -585,7 +588,9 @@ LOBE_API sg_lobe vsgl_incoming_lobe(vsgl v, int component, lobe_vec3 point) {
 /*
  vsgl_diffuse - light of one component of a virtual SG light reflected by a Lambert surface
 
-   returns    reflected radiance per unit of v.intensity[component] and albedo
+   component  VSGL_DIFFUSE or VSGL_SPECULAR
+   point      of the surface with that normal, at most 1e5 from the light
+   returns    reflected radiance per unit of v.intensity[component] and albedo; visibility is the caller's
 
    Rounding: <= 16 units of vsgl_incoming_lobe times the value for cosine 1; a variance of 0 gives the point light
              [bound vsgl_diffuse conditioned 16]

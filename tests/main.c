@@ -72,6 +72,14 @@ double test_ulp(double value) {
     return (double)nextafterf(magnitude, INFINITY) - (double)magnitude;
 }
 
+int test_is_finite(float value) {
+    unsigned bits;
+    memcpy(&bits, &value, sizeof bits);
+    return (bits & 0x7F800000u) != 0x7F800000u;
+}
+
+test_rng test_random;
+
 double test_uniform(test_rng *rng) { /* splitmix64, Steele et al. 2014 */
     unsigned long long z = (rng->state += 0x9E3779B97F4A7C15ull);
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
@@ -125,6 +133,7 @@ int main(int argc, char **argv) {
         for (test = tables[table]; test->name; test++) {
             if (!strstr(test->name, wanted)) continue;
             failures = 0;
+            test_random.state = 0;
             test->run();
             printf("%s %s\n", failures ? "FAILED" : "ok    ", test->name);
             fflush(stdout);

@@ -35,6 +35,9 @@ void test_that(int condition, const char *what, const double *inputs, int count)
 /* Prints the largest error seen beside the bound (with --verbose) */
 void test_report(const test_bound *bound);
 
+/* Neither infinite nor NaN; by its bits, since the suite also runs with -ffast-math. */
+int test_is_finite(float value);
+
 /* The units: spacing of floats at a value, and 2^-24. */
 double test_ulp(double value);
 #define TEST_EPSILON 0x1p-24
@@ -46,6 +49,9 @@ typedef struct {
 double test_uniform(test_rng *rng);
 double test_log_uniform(test_rng *rng, double low, double high);
 void test_direction(test_rng *rng, double direction[3]);
+
+/* A generator that starts anew with each test, so that a test draws the same alone as among others. */
+extern test_rng test_random;
 
 /* One table per header, closed by a null name. */
 extern const test_case sg_tests[];

@@ -4,16 +4,18 @@
 
 #include "scene.h"
 
-/* BRDF value per component: diffuse / pi, and GGX (Walter et al. 2007) with Smith's height-correlated G2. */
+/* The GGX distribution of half vectors (Walter et al. 2007) */
+static inline float brdf_distribution(float alpha, float cos_h) {
+    float a2 = alpha * alpha, base = a2 * cos_h * cos_h + (1 - cos_h) * (1 + cos_h);
+    return a2 / (LOBE_PI * base * base);
+}
+
+/* BRDF value per component: diffuse / pi, and GGX with Smith's height-correlated G2. */
 static inline vec3 brdf_value(const finish *look, vec3 normal, vec3 wi, vec3 wo) {
     float cos_i = lobe_dot(normal, wi), cos_o = lobe_dot(normal, wo), a2 = look->alpha * look->alpha;
-    float cos_h, distribution, visibility, base;
-    vec3 h;
+    float distribution, visibility;
     if (cos_i <= 0 || cos_o <= 0) return lobe_vector(0, 0, 0);
-    h = vec3_normalize(lobe_add(wi, wo));
-    cos_h = lobe_dot(normal, h);
-    base = a2 * cos_h * cos_h + (1 - cos_h) * (1 + cos_h);
-    distribution = a2 / (LOBE_PI * base * base);
+    distribution = brdf_distribution(look->alpha, lobe_dot(normal, vec3_normalize(lobe_add(wi, wo))));
     visibility = 0.5f / (cos_o * sqrtf(a2 + (1 - a2) * cos_i * cos_i) + cos_i * sqrtf(a2 + (1 - a2) * cos_o * cos_o));
     return lobe_add(lobe_scale(look->diffuse, 1 / LOBE_PI), lobe_scale(look->specular, distribution * visibility));
 }
@@ -26,14 +28,13 @@ static inline float brdf_specular_chance(const finish *look) {
 
 /* Probability density, per solid angle, that brdf_sample gives wi. */
 static inline float brdf_density(const finish *look, vec3 normal, vec3 wo, vec3 wi) {
-    float cos_i = lobe_dot(normal, wi), a2 = look->alpha * look->alpha, chance = brdf_specular_chance(look);
-    float cos_h, base;
+    float cos_i = lobe_dot(normal, wi), chance = brdf_specular_chance(look), cos_h;
     vec3 h;
     if (cos_i <= 0 || lobe_dot(normal, wo) <= 0) return 0;
     h = vec3_normalize(lobe_add(wi, wo));
     cos_h = lobe_dot(normal, h);
-    base = a2 * cos_h * cos_h + (1 - cos_h) * (1 + cos_h);
-    return (1 - chance) * cos_i / LOBE_PI + chance * a2 * cos_h / (LOBE_PI * base * base * 4 * lobe_dot(wo, h));
+    return (1 - chance) * cos_i / LOBE_PI +
+           chance * brdf_distribution(look->alpha, cos_h) * cos_h / (4 * lobe_dot(wo, h));
 }
 
 /* A direction towards light, proportional to the cosine or by a half vector from the GGX distribution. u: uniform. */

@@ -42,14 +42,14 @@ buffer buffer_camera(const scene *world, int width, int height) {
 }
 
 vec3 spot_direction(const spot_light *spot, float u, float v, float *solid_angle) {
-    float tangent = tanf(spot->cone), x = (2 * u - 1) * tangent, y = (2 * v - 1) * tangent;
+    float tangent = spot->tangent, x = (2 * u - 1) * tangent, y = (2 * v - 1) * tangent;
     float length2 = 1 + x * x + y * y;
     *solid_angle = 4 * tangent * tangent / (length2 * sqrtf(length2));
     return vec3_normalize(lobe_add(spot->forward, lobe_add(lobe_scale(spot->right, x), lobe_scale(spot->up, y))));
 }
 
 int spot_project(const spot_light *spot, vec3 dir, float *u, float *v) {
-    float tangent = tanf(spot->cone), depth = lobe_dot(dir, spot->forward);
+    float tangent = spot->tangent, depth = lobe_dot(dir, spot->forward);
     if (depth <= 0) return 0;
     *u = 0.5f + 0.5f * lobe_dot(dir, spot->right) / (depth * tangent);
     *v = 0.5f + 0.5f * lobe_dot(dir, spot->up) / (depth * tangent);

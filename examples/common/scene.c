@@ -24,21 +24,21 @@ void scene_frame(vec3 forward, vec3 *right, vec3 *up) {
    SCENE_FAR for a miss. */
 
 static float hit_quad(const shape *s, vec3 o, vec3 d, float start, vec3 *normal) {
-    vec3 n = vec3_normalize(lobe_cross(s->edge_u, s->edge_v)), p;
-    float facing = -lobe_dot(d, n), t, u, v;
+    float facing = -lobe_dot(d, s->normal), t, u, v;
+    vec3 p;
     if (facing <= 0) return SCENE_FAR;
-    t = lobe_dot(lobe_sub(o, s->center), n) / facing;
+    t = lobe_dot(lobe_sub(o, s->center), s->normal) / facing;
     if (t <= start) return SCENE_FAR;
     p = lobe_sub(lobe_add(o, lobe_scale(d, t)), s->center);
     u = lobe_dot(p, s->edge_u) / lobe_dot(s->edge_u, s->edge_u);
     v = lobe_dot(p, s->edge_v) / lobe_dot(s->edge_v, s->edge_v);
     if (fabsf(u) > 1 || fabsf(v) > 1) return SCENE_FAR;
-    *normal = n;
+    *normal = s->normal;
     return t;
 }
 
 static float hit_box(const shape *s, vec3 o, vec3 d, float start, vec3 *normal) {
-    float c = cosf(s->turn), w = sinf(s->turn), t0 = -SCENE_FAR, t1 = SCENE_FAR, side = 0;
+    float c = s->turn_cos, w = s->turn_sin, t0 = -SCENE_FAR, t1 = SCENE_FAR, side = 0;
     float origin[3], dir[3], half[3];
     vec3 p = lobe_sub(o, s->center);
     int axis, entered = 0;
@@ -218,6 +218,7 @@ static void add_quad(scene *world, material look, vec3 center, vec3 edge_u, vec3
     shape *s = add(world, SHAPE_QUAD, look, center);
     s->edge_u = edge_u;
     s->edge_v = edge_v;
+    s->normal = vec3_normalize(lobe_cross(edge_u, edge_v));
 }
 
 scene scene_room(void) {
@@ -249,7 +250,8 @@ scene scene_room(void) {
 
     s = add(&world, SHAPE_BOX, plain(lobe_vector(0.65f, 0.65f, 0.65f), 0.1f, 0.4f), lobe_vector(0.75f, 0.5f, -0.9f));
     s->half_size = lobe_vector(0.38f, 0.5f, 0.38f);
-    s->turn = 0.4f;
+    s->turn_cos = cosf(0.4f);
+    s->turn_sin = sinf(0.4f);
 
     s = add(&world, SHAPE_SPHERE, plain(lobe_vector(0.1f, 0.1f, 0.12f), 0.6f, 0.15f), lobe_vector(1.1f, 0.35f, 0.35f));
     s->radius = 0.35f;
@@ -258,6 +260,7 @@ scene scene_room(void) {
     world.spot.target = lobe_vector(-0.9f, 0.2f, 0.3f);
     world.spot.intensity = lobe_vector(30, 28, 25);
     world.spot.cone = 0.5f;
+    world.spot.tangent = tanf(world.spot.cone);
     world.spot.forward = vec3_normalize(lobe_sub(world.spot.target, world.spot.position));
     scene_frame(world.spot.forward, &world.spot.right, &world.spot.up);
 

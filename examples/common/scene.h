@@ -23,18 +23,20 @@ typedef enum { SHAPE_QUAD, SHAPE_BOX, SHAPE_SPHERE, SHAPE_COLUMN, SHAPE_RING } s
 typedef struct {
     shape_kind kind;
     material look;
-    vec3 center;          /* of quad, box and sphere; foot of the axis of column and ring */
-    vec3 edge_u, edge_v;  /* quad: half edges; its front is where edge_u x edge_v points */
-    vec3 half_size;       /* box */
-    float turn;           /* box: angle about y */
-    float radius, height; /* sphere, column, ring: outer radius */
-    float inner_radius;   /* ring */
+    vec3 center;              /* of quad, box and sphere; foot of the axis of column and ring */
+    vec3 edge_u, edge_v;      /* quad: half edges */
+    vec3 normal;              /* quad: of its front, along edge_u x edge_v */
+    vec3 half_size;           /* box */
+    float turn_cos, turn_sin; /* box: of its angle about y */
+    float radius, height;     /* sphere, column, ring: outer radius */
+    float inner_radius;       /* ring */
 } shape;
 
 typedef struct {
     vec3 position, target, intensity; /* peak radiant intensity, watts per steradian */
     float cone;                       /* half angle in radians; fades to 0 over its last fifth */
-    vec3 right, up, forward;          /* set by scene_room */
+    float tangent;                    /* of the cone's half angle, and half the width of the image at distance 1 */
+    vec3 right, up, forward;
 } spot_light;
 
 typedef struct {

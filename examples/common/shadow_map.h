@@ -27,7 +27,7 @@ static inline int shadow_map_texel(vec3 dir) {
            (int)lobe_min(u, (float)SHADOW_MAP_SIZE - 1);
 }
 
-/* Where to look for a point with the given normal: its texel, and the depth that must not lie behind what is seen there.
+/* Where to look for a point with the given normal: its texel, and the depth that must not exceed the distance there.
    The bias grows with the slope: a texel is seen under an angle of about 1.7 / size. */
 static inline int shadow_map_probe(vec3 light, vec3 point, vec3 normal, float *depth) {
     vec3 offset = lobe_sub(point, light);
