@@ -190,8 +190,8 @@ LOBE_API float lobe_exp(float x) {
 }
 
 /* (1 - e^-x) / x for x >= 0; 1 at 0, 0 at infinity.   [bound lobe_phi rel 2.5e-7]
-   With -x log2(e) = k + r, all terms are positive, and the last is exactly 0 for k = 0, in whatever order they are added.
-*/
+   With -x log2(e) = k + r all terms are positive, and the last is exactly 0 for k = 0, in whatever order they are
+   added. */
 LOBE_API float lobe_phi(float x) {
     float whole, power, r, slope;
     r = lobe_exp2_split(-LOBE_LOG2E * x, &whole, &power);
