@@ -404,19 +404,18 @@ LOBE_API asg_lobe asg_convolve(asg_lobe a, float kappa) {
     LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && kappa > 0);
     a.sharpness_x /= 1 + rx;
     a.sharpness_y /= 1 + ry;
-    a.log_amplitude -= 0.5f * (logf(1 + rx) + logf(1 + ry));
+    a.log_amplitude -= 0.5f * (lobe_log(1 + rx) + lobe_log(1 + ry));
     return a;
 }
 
 /* ---- reflection lobes ---- */
 
 /* x and y perpendicular to the axis, y also to the normal, x on the normal's side. Any frame is as good where
-   axis and normal agree. A frame after Duff et al. 2017, turned: orthonormal however near they are. */
+   axis and normal agree. */
 LOBE_API void lobe_asg_frame(lobe_vec3 normal, asg_lobe *lobe) {
-    lobe_vec3 z = lobe->z, u, v;
-    float sign = z.z < 0 ? -1.0f : 1.0f, s = -1 / (sign + z.z), t = z.x * z.y * s, c, d, size, inverse;
-    u = lobe_vector(1 + sign * z.x * z.x * s, sign * t, -sign * z.x);
-    v = lobe_vector(t, sign + z.y * z.y * s, -z.y);
+    lobe_vec3 u, v;
+    float c, d, size, inverse;
+    lobe_frame(lobe->z, &u, &v);
     c = lobe_dot(normal, u);
     d = lobe_dot(normal, v);
     size = sqrtf(c * c + d * d);

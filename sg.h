@@ -30,6 +30,7 @@
    sg_eval                          value in a direction
    sg_integral                      over the sphere
    sg_normalize                     scales the amplitude to unit integral
+   sg_sample, sg_pdf                a direction drawn from it; its density
    sg_product                       of two SGs, again an SG
    sg_product_integral, _approx     exact; Iwasaki 2012
    sg_convolve                      with a normalised SG kernel
@@ -54,6 +55,13 @@
 
 #include <math.h>
 #include <string.h>
+
+/* Says that sqrtf has no effect but its value: gcc, which otherwise heeds errno, then vectorises it. */
+#if defined(__GNUC__) && !defined(__cplusplus)
+extern __attribute__((__const__)) float sqrtf(float);
+#elif defined(__GNUC__) && defined(__GLIBC__)
+extern "C" __attribute__((__const__)) float sqrtf(float) __THROW;
+#endif
 
 #ifndef LOBE_API
 #define LOBE_API static inline
@@ -112,6 +120,36 @@ LOBE_API float lobe_max(float a, float b) {
     return a > b ? a : b;
 }
 
+/* max(x, low) and min(x, high) for low, high >= 0: by the bits, which order like the values there. Next to a division or
+   a conversion gcc vectorises no minimum of floats, since it may trap. */
+LOBE_API float lobe_at_least(float x, float low) {
+    int a, b;
+    memcpy(&a, &x, sizeof a);
+    memcpy(&b, &low, sizeof b);
+    a = a > b ? a : b;
+    memcpy(&x, &a, sizeof x);
+    return x;
+}
+
+LOBE_API float lobe_at_most(float x, float high) {
+    int a, b;
+    memcpy(&a, &x, sizeof a);
+    memcpy(&b, &high, sizeof b);
+    a = a < b ? a : b;
+    memcpy(&x, &a, sizeof x);
+    return x;
+}
+
+/* a where condition is 1, b where it is 0: both are computed, as vector code has it */
+LOBE_API float lobe_select(int condition, float a, float b) {
+    unsigned i, j, mask = 0u - (unsigned)condition;
+    memcpy(&i, &a, sizeof i);
+    memcpy(&j, &b, sizeof j);
+    i = (i & mask) | (j & ~mask);
+    memcpy(&a, &i, sizeof a);
+    return a;
+}
+
 LOBE_API lobe_vec3 lobe_vector(float x, float y, float z) {
     lobe_vec3 v;
     v.x = x;
@@ -143,11 +181,13 @@ LOBE_API lobe_vec3 lobe_cross(lobe_vec3 a, lobe_vec3 b) {
 /* v / |v|; the fallback where v is too short to have a direction. Chosen field by field, since clang does not vectorise
    a choice of structs. */
 LOBE_API lobe_vec3 lobe_normalize_or(lobe_vec3 v, lobe_vec3 fallback) {
-    float size = lobe_max(lobe_max(fabsf(v.x), fabsf(v.y)), fabsf(v.z));
-    float inverse = 1 / lobe_max(size, LOBE_TINY), x = v.x * inverse, y = v.y * inverse, z = v.z * inverse;
-    float scale = 1 / sqrtf(lobe_max(x * x + y * y + z * z, LOBE_TINY)); /* v.v may overflow or vanish, this does not */
-    return lobe_vector(size > LOBE_TINY ? x * scale : fallback.x, size > LOBE_TINY ? y * scale : fallback.y,
-                       size > LOBE_TINY ? z * scale : fallback.z);
+    float size = lobe_at_least(lobe_at_least(fabsf(v.x), fabsf(v.y)), fabsf(v.z));
+    float inverse = 1 / lobe_at_least(size, LOBE_TINY), x = v.x * inverse, y = v.y * inverse, z = v.z * inverse;
+    /* v.v may overflow or vanish, this does not */
+    float scale = 1 / sqrtf(lobe_at_least(x * x + y * y + z * z, LOBE_TINY));
+    int long_enough = size > LOBE_TINY;
+    return lobe_vector(lobe_select(long_enough, x * scale, fallback.x), lobe_select(long_enough, y * scale, fallback.y),
+                       lobe_select(long_enough, z * scale, fallback.z));
 }
 
 /* The mean of three channels: the scalar weight of a colour. */
@@ -199,6 +239,59 @@ LOBE_API float lobe_phi(float x) {
     return power * slope * LOBE_LOG2E + (1 - power * (1 - whole * slope)) / lobe_max(x, LOBE_TINY);
 }
 
+/* ln(1 + f) / f for -.293 <= f <= .415, to 2^-24 */
+LOBE_API float lobe_log_slope(float f) {
+    float f2 = f * f;
+    return 1 + f * ((-0.499999911f + 0.333339512f * f) +
+                    f2 * ((-0.250017554f + 0.199620724f * f) +
+                          f2 * ((-0.165705085f + 0.149179727f * f) + f2 * (-0.143075228f + 0.0873484462f * f))));
+}
+
+/* ln x; at 0 and below 2^-126 that of 2^-126.   [bound lobe_log rel 2e-7] */
+LOBE_API float lobe_log(float x) {
+    unsigned u;
+    float f;
+    x = lobe_at_least(x, 1.17549435e-38f);
+    memcpy(&u, &x, sizeof u);
+    u += 0x3F800000u - 0x3F3504F3u; /* so that the mantissa starts at sqrt(1/2) */
+    x = (float)((int)(u >> 23) - 127);
+    u = (u & 0x007FFFFFu) + 0x3F3504F3u;
+    memcpy(&f, &u, sizeof f);
+    f -= 1;
+    return 0.693147181f * x + f * lobe_log_slope(f);
+}
+
+/* -ln(1 - x) / x for x in [0, 1], which counts as at most 1 - 2^-24; 1 at 0.   [bound lobe_log1m_slope rel 3e-7]
+   1 - x = 2^-m (1 + f), where 2^m - 1 is made of integers: in floats it could be added in another order. */
+LOBE_API float lobe_log1m_slope(float x) {
+    unsigned u;
+    int m;
+    float f;
+    x = lobe_at_least(lobe_at_most(x, 0.999999940f), LOBE_TINY);
+    f = 1 - x;
+    memcpy(&u, &f, sizeof u);
+    m = 127 - (int)((u + (0x3F800000u - 0x3F3504F3u)) >> 23);
+    f = (float)((1 << m) - 1) - x * (float)(1 << m);
+    return (0.693147181f * (float)m - f * lobe_log_slope(f)) / x;
+}
+
+/* cos and sin of 2 pi v for v in [0, 1].   [bound lobe_turn abs 1.3e-7] */
+LOBE_API void lobe_turn(float v, float *cosine, float *sine) {
+    int quarter = (int)(4 * v + 0.5f), odd = quarter & 1, negative = (quarter >> 1) & 1;
+    float r = 4 * v - (float)quarter, r2 = r * r;
+    float s = r * (1.57079637f + r2 * (-0.645963490f + r2 * (0.0796800330f - 0.00460165786f * r2)));
+    float c = 1 + r2 * (-1.23370051f + r2 * (0.253669232f + r2 * (-0.0208602883f + 0.000904021726f * r2)));
+    *cosine = lobe_select(odd, s, c) * (float)(1 - 2 * (odd ^ negative));
+    *sine = lobe_select(odd, c, s) * (float)(1 - 2 * negative);
+}
+
+/* Two unit vectors perpendicular to a unit axis and to each other, after Duff et al. 2017 */
+LOBE_API void lobe_frame(lobe_vec3 axis, lobe_vec3 *x, lobe_vec3 *y) {
+    float sign = copysignf(1, axis.z), s = -1 / (sign + axis.z), t = axis.x * axis.y * s;
+    *x = lobe_vector(1 + sign * axis.x * axis.x * s, sign * t, -sign * axis.x);
+    *y = lobe_vector(t, sign + axis.y * axis.y * s, -axis.y);
+}
+
 /* |a - b|^2 of unit vectors, insensitive to errors in their lengths: the part of a - b along a + b is removed. */
 LOBE_API float lobe_chord_squared(lobe_vec3 a, lobe_vec3 b) {
     lobe_vec3 d = lobe_sub(a, b), s = lobe_add(a, b), e;
@@ -244,19 +337,57 @@ LOBE_API float sg_integral(float sharpness) {
    g          sharpness [0, 1e30]; its amplitude does not matter
    returns    g with log_amplitude = -ln(sg_integral(sharpness))
 
-   Rounding: integral within 1.5e-6 of 1 for sharpness up to 1e10   [bound sg_normalize rel 1.5e-6 over 1e-8 1e10]
+   Rounding: integral within 2.2e-6 of 1 for sharpness up to 1e10   [bound sg_normalize rel 2.2e-6 over 1e-8 1e10]
    Model:    exact
    Source:   000, section 2
 */
 LOBE_API sg_lobe sg_normalize(sg_lobe g) {
-    g.log_amplitude = -logf(sg_integral(g.sharpness));
+    g.log_amplitude = -lobe_log(sg_integral(g.sharpness));
     return g;
+}
+
+/*
+ sg_sample - a direction drawn in proportion to an SG
+
+   g          sharpness [0, 1e30]; its amplitude does not matter
+   u, v       [0, 1]; evenly spread over the unit square for directions spread like the SG; u = 0 is the axis
+   returns    a direction of density sg_pdf(g, direction)
+
+   Rounding: the lobe's share within the direction's angle is u to 4e-7, if sharpness <= 1e10; its length is 1 to 2.5e-7
+             [bound sg_sample share 4e-7 over 1e-8 1e10] [bound sg_sample length 2.5e-7]
+   Model:    exact
+   Source:   inversion of 1 - exp(-sharpness t) for t = 1 - cos, by t = -ln(1 - x) / sharpness, x = u (1 - exp(-2
+             sharpness)), with both functions divided by their arguments, so that sharpness 0 is the whole sphere
+*/
+LOBE_API lobe_vec3 sg_sample(sg_lobe g, float u, float v) {
+    float reach = 2 * lobe_phi(2 * g.sharpness) * u, slope = lobe_log1m_slope(g.sharpness * reach);
+    float t = lobe_at_most(reach * slope, 2), sine = sqrtf(t * (2 - t)), x, y;
+    lobe_vec3 a, b;
+    LOBE_ASSERT(g.sharpness >= 0 && u >= 0 && u <= 1 && v >= 0 && v <= 1);
+    lobe_frame(g.axis, &a, &b);
+    lobe_turn(v, &x, &y);
+    return lobe_add(lobe_scale(g.axis, 1 - t), lobe_scale(lobe_add(lobe_scale(a, x), lobe_scale(b, y)), sine));
+}
+
+/*
+ sg_pdf - density of sg_sample per solid angle
+
+   g, dir     sharpness [0, 1e30]; the amplitude of g does not matter
+   returns    sg_eval(sg_normalize(g), dir)
+
+   Rounding: <= 12 (1 + |ln g|) 2^-24, g the value over its peak   [bound sg_pdf conditioned 12 over 1e-8 1e10]
+   Model:    exact
+   Source:   000, section 2
+*/
+LOBE_API float sg_pdf(sg_lobe g, lobe_vec3 dir) {
+    LOBE_ASSERT(g.sharpness >= 0);
+    return lobe_exp(-0.5f * g.sharpness * lobe_chord_squared(g.axis, dir)) / sg_integral(g.sharpness);
 }
 
 /* The weighted mean (la a + lb b) / (la + lb) of two axes: the axis of the product, unnormalised; exactly 0 for opposed
    lobes of equal sharpness. */
 LOBE_API lobe_vec3 lobe_product_mean(sg_lobe a, sg_lobe b) {
-    float difference = (a.sharpness - b.sharpness) / lobe_max(a.sharpness + b.sharpness, LOBE_TINY);
+    float difference = (a.sharpness - b.sharpness) / lobe_at_least(a.sharpness + b.sharpness, LOBE_TINY);
     return lobe_scale(lobe_add(lobe_add(a.axis, b.axis), lobe_scale(lobe_sub(a.axis, b.axis), difference)), 0.5f);
 }
 
@@ -266,7 +397,7 @@ LOBE_API float lobe_product_sharpness(sg_lobe a, sg_lobe b, lobe_vec3 mean, floa
     float sum = a.sharpness + b.sharpness, sharpness = sum * sqrtf(lobe_dot(mean, mean));
     float chord2 = lobe_chord_squared(a.axis, b.axis);
     /* the minimum does nothing, but keeps -ffast-math from forming a.sharpness * b.sharpness, which may overflow */
-    *log_loss = -(a.sharpness * chord2) * lobe_min(b.sharpness / lobe_max(sharpness + sum, LOBE_TINY), 1);
+    *log_loss = -(a.sharpness * chord2) * lobe_at_most(b.sharpness / lobe_at_least(sharpness + sum, LOBE_TINY), 1);
     return sharpness;
 }
 
@@ -325,7 +456,7 @@ LOBE_API float sg_product_integral(sg_lobe a, sg_lobe b) {
    Source:   Iwasaki, Dobashi and Nishita 2012; 004, section 4.1
 */
 LOBE_API float sg_product_integral_approx(sg_lobe a, sg_lobe b) {
-    float inverse = 1 / lobe_max(a.sharpness + b.sharpness, LOBE_TINY);
+    float inverse = 1 / lobe_at_least(a.sharpness + b.sharpness, LOBE_TINY);
     float chord2 = lobe_chord_squared(a.axis, b.axis);
     LOBE_ASSERT(a.sharpness >= 0 && b.sharpness >= 0);
     return 2 * LOBE_PI * inverse *
@@ -344,10 +475,10 @@ LOBE_API float sg_product_integral_approx(sg_lobe a, sg_lobe b) {
    Source:   004, Eq. 10 times kappa / (2 pi)
 */
 LOBE_API sg_lobe sg_convolve(sg_lobe g, float kappa) {
-    float ratio = g.sharpness / lobe_max(kappa, 1e-8f);
+    float ratio = g.sharpness / lobe_at_least(kappa, 1e-8f);
     LOBE_ASSERT(g.sharpness >= 0 && kappa > 0);
     g.sharpness = g.sharpness / (1 + ratio);
-    g.log_amplitude -= logf(1 + ratio);
+    g.log_amplitude -= lobe_log(1 + ratio);
     return g;
 }
 
@@ -363,8 +494,7 @@ LOBE_API sg_lobe sg_convolve(sg_lobe g, float kappa) {
              only the tail f(-|c|) is fitted, in a form that stays positive
 */
 LOBE_API float sg_cosine_integral(sg_lobe g, lobe_vec3 normal) {
-    float c = lobe_max(lobe_min(lobe_dot(g.axis, normal), 1), -1);
-    float l = lobe_min(g.sharpness, 1e18f), al = fabsf(c) * l;
+    float c = lobe_dot(g.axis, normal), l = lobe_at_most(g.sharpness, 1e18f), al = lobe_at_most(fabsf(c), 1) * l;
     float lk = sqrtf(l * l + 4), z = sqrtf((l - al) * (l + al) + 4);
     float u = 3 / (3 + l), v = sqrtf(u), y = al * v, q = al * (al / ((z + lk) * lk));
     float exponent =
@@ -374,7 +504,7 @@ LOBE_API float sg_cosine_integral(sg_lobe g, lobe_vec3 normal) {
     float peak = v * (0.230304177f + u * (-0.517313575f + u * (0.593470966f + u * (-0.194214744f + u * 0.084104355f))));
     float mean = (1 - u) * (1 + u * (-1.95684843f + u * (1.97401732f - u * 0.231920424f)));
     LOBE_ASSERT(g.sharpness >= 0);
-    return lobe_exp(g.log_amplitude) * sg_integral(g.sharpness) * (peak * lobe_exp(-exponent) + mean * lobe_max(c, 0)) /
+    return lobe_exp(g.log_amplitude) * sg_integral(g.sharpness) * (peak * lobe_exp(-exponent) + mean * lobe_at_most(lobe_at_least(c, 0), 1)) /
            denominator;
 }
 
@@ -406,9 +536,9 @@ LOBE_API float sg_mean_length(float sharpness) {
    Source:   Toksvig 2005; 000, section 3.1
 */
 LOBE_API float sg_sharpness_from_mean_length(float mean_length) {
-    float clamped = lobe_max(lobe_min(mean_length, 1), 0);
+    float clamped = lobe_at_least(lobe_at_most(mean_length, 1), 0);
     LOBE_ASSERT(mean_length >= 0 && mean_length <= 1.001f);
-    return clamped / lobe_max(1 - clamped, 2.98023224e-8f); /* 2^-25 */
+    return clamped / lobe_at_least(1 - clamped, 2.98023224e-8f); /* 2^-25 */
 }
 
 /* ---- reflection lobes ---- */
@@ -446,7 +576,7 @@ LOBE_API sg_lobe sg_reflection_lobe(lobe_vec3 normal, lobe_vec3 wi, float half_s
     float cos_theta = lobe_dot(wi, normal);
     LOBE_ASSERT(half_sharpness >= 0);
     g.axis = lobe_normalize_or(lobe_sub(lobe_scale(normal, 2 * cos_theta), wi), normal);
-    g.sharpness = lobe_min(half_sharpness / (4 * lobe_max(fabsf(cos_theta), 1e-4f)), LOBE_HUGE);
+    g.sharpness = lobe_at_most(half_sharpness / (4 * lobe_at_least(fabsf(cos_theta), 1e-4f)), LOBE_HUGE);
     g.log_amplitude = 0;
     return g;
 }
@@ -454,7 +584,7 @@ LOBE_API sg_lobe sg_reflection_lobe(lobe_vec3 normal, lobe_vec3 wi, float half_s
 /* sg_ggx_lobe, sg_beckmann_lobe, sg_phong_lobe - sg_reflection_lobe for alpha in [1e-4, 1] (clamped below) and for a
    Blinn-Phong exponent [0, 1e9]; the errors are its. GGX has heavier tails than any SG. */
 LOBE_API sg_lobe sg_ggx_lobe(lobe_vec3 normal, lobe_vec3 wi, float alpha) {
-    float clamped = lobe_max(alpha, 1e-4f);
+    float clamped = lobe_at_least(alpha, 1e-4f);
     return sg_reflection_lobe(normal, wi, 2 / (clamped * clamped));
 }
 
@@ -534,12 +664,12 @@ LOBE_API vsgl_moments vsgl_moments_scale(vsgl_moments m, float s) {
 LOBE_API vsgl vsgl_from_moments(vsgl_moments m, lobe_vec3 origin) {
     vsgl v;
     int k;
-    float weight = lobe_mean(m.power[0]) + lobe_mean(m.power[1]), inverse = 1 / lobe_max(weight, LOBE_TINY);
+    float weight = lobe_mean(m.power[0]) + lobe_mean(m.power[1]), inverse = 1 / lobe_at_least(weight, LOBE_TINY);
     lobe_vec3 mean = lobe_scale(m.position, inverse);
     v.position = lobe_add(origin, mean);
     v.variance = lobe_max(m.position_squared * inverse - lobe_dot(mean, mean), 0);
     for (k = 0; k < 2; k++) {
-        lobe_vec3 direction = lobe_scale(m.direction[k], 1 / lobe_max(lobe_mean(m.power[k]), LOBE_TINY));
+        lobe_vec3 direction = lobe_scale(m.direction[k], 1 / lobe_at_least(lobe_mean(m.power[k]), LOBE_TINY));
         float mean_length = lobe_min(sqrtf(lobe_dot(direction, direction)), 1);
         v.emission[k].axis = lobe_normalize_or(direction, lobe_vector(0, 0, 1));
         v.emission[k].sharpness = sg_sharpness_from_mean_length(mean_length);
@@ -553,7 +683,7 @@ LOBE_API vsgl vsgl_from_moments(vsgl_moments m, lobe_vec3 origin) {
 LOBE_API sg_lobe lobe_vsgl_incoming(vsgl v, int component, lobe_vec3 point, float *inverse_variance) {
     sg_lobe extent, emission;
     lobe_vec3 offset = lobe_sub(v.position, point);
-    *inverse_variance = 1 / lobe_max(v.variance, 1e-20f);
+    *inverse_variance = 1 / lobe_at_least(v.variance, 1e-20f);
     /* field by field: an index would go through memory and stop vectorisation */
     emission.axis.x = -(component ? v.emission[1].axis.x : v.emission[0].axis.x);
     emission.axis.y = -(component ? v.emission[1].axis.y : v.emission[0].axis.y);
@@ -581,7 +711,7 @@ LOBE_API sg_lobe lobe_vsgl_incoming(vsgl v, int component, lobe_vec3 point, floa
 LOBE_API sg_lobe vsgl_incoming_lobe(vsgl v, int component, lobe_vec3 point) {
     float inverse_variance;
     sg_lobe g = lobe_vsgl_incoming(v, component, point, &inverse_variance);
-    g.log_amplitude += logf(inverse_variance * (0.5f / LOBE_PI));
+    g.log_amplitude += lobe_log(inverse_variance * (0.5f / LOBE_PI));
     return g;
 }
 
