@@ -191,16 +191,14 @@ LOBE_API lobe_vec3 lobe_cross(lobe_vec3 a, lobe_vec3 b) {
     return lobe_vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-/* v / |v|; the fallback where v is too short to have a direction. Chosen field by field, since clang does not vectorise
-   a choice of structs. */
+/* v / |v| for lengths up to 1e18; the fallback below 1e-18. Chosen field by field, since clang does not vectorise a
+   choice of structs. */
 LOBE_API lobe_vec3 lobe_normalize_or(lobe_vec3 v, lobe_vec3 fallback) {
-    float size = lobe_at_least(lobe_at_least(fabsf(v.x), fabsf(v.y)), fabsf(v.z));
-    float inverse = 1 / lobe_at_least(size, LOBE_TINY), x = v.x * inverse, y = v.y * inverse, z = v.z * inverse;
-    /* v.v may overflow or vanish, this does not */
-    float scale = 1 / sqrtf(lobe_at_least(x * x + y * y + z * z, LOBE_TINY));
-    int long_enough = size > LOBE_TINY;
-    return lobe_vector(lobe_select(long_enough, x * scale, fallback.x), lobe_select(long_enough, y * scale, fallback.y),
-                       lobe_select(long_enough, z * scale, fallback.z));
+    float size = sqrtf(lobe_dot(v, v)), inverse = 1 / lobe_at_least(size, 1e-18f);
+    int long_enough = size > 1e-18f;
+    return lobe_vector(lobe_select(long_enough, v.x * inverse, fallback.x),
+                       lobe_select(long_enough, v.y * inverse, fallback.y),
+                       lobe_select(long_enough, v.z * inverse, fallback.z));
 }
 
 /* The mean of three channels: the scalar weight of a colour. */
@@ -645,25 +643,33 @@ LOBE_API vsgl_moments vsgl_moments_from_vpl(lobe_vec3 offset, lobe_vec3 normal, 
 
 /* vsgl_moments_add, vsgl_moments_scale - entry by entry; one rounding each. */
 LOBE_API vsgl_moments vsgl_moments_add(vsgl_moments a, vsgl_moments b) {
-    int k;
-    for (k = 0; k < 2; k++) {
-        a.power[k] = lobe_add(a.power[k], b.power[k]);
-        a.direction[k] = lobe_add(a.direction[k], b.direction[k]);
-    }
+    a.power[0] = lobe_add(a.power[0], b.power[0]);
+    a.power[1] = lobe_add(a.power[1], b.power[1]);
+    a.direction[0] = lobe_add(a.direction[0], b.direction[0]);
+    a.direction[1] = lobe_add(a.direction[1], b.direction[1]);
     a.position = lobe_add(a.position, b.position);
     a.position_squared += b.position_squared;
     return a;
 }
 
 LOBE_API vsgl_moments vsgl_moments_scale(vsgl_moments m, float s) {
-    int k;
-    for (k = 0; k < 2; k++) {
-        m.power[k] = lobe_scale(m.power[k], s);
-        m.direction[k] = lobe_scale(m.direction[k], s);
-    }
+    m.power[0] = lobe_scale(m.power[0], s);
+    m.power[1] = lobe_scale(m.power[1], s);
+    m.direction[0] = lobe_scale(m.direction[0], s);
+    m.direction[1] = lobe_scale(m.direction[1], s);
     m.position = lobe_scale(m.position, s);
     m.position_squared *= s;
     return m;
+}
+
+/* One component's lobe. */
+LOBE_API sg_lobe lobe_vsgl_emission(lobe_vec3 power, lobe_vec3 direction) {
+    sg_lobe g;
+    lobe_vec3 mean = lobe_scale(direction, 1 / lobe_at_least(lobe_mean(power), LOBE_TINY));
+    g.axis = lobe_normalize_or(mean, lobe_vector(0, 0, 1));
+    g.sharpness = sg_sharpness_from_mean_length(lobe_at_most(sqrtf(lobe_dot(mean, mean)), 1));
+    g.log_amplitude = 0;
+    return g;
 }
 
 /*
@@ -681,19 +687,14 @@ LOBE_API vsgl_moments vsgl_moments_scale(vsgl_moments m, float s) {
 */
 LOBE_API vsgl vsgl_from_moments(vsgl_moments m, lobe_vec3 origin) {
     vsgl v;
-    int k;
     float weight = lobe_mean(m.power[0]) + lobe_mean(m.power[1]), inverse = 1 / lobe_at_least(weight, LOBE_TINY);
     lobe_vec3 mean = lobe_scale(m.position, inverse);
     v.position = lobe_add(origin, mean);
-    v.variance = lobe_max(m.position_squared * inverse - lobe_dot(mean, mean), 0);
-    for (k = 0; k < 2; k++) {
-        lobe_vec3 direction = lobe_scale(m.direction[k], 1 / lobe_at_least(lobe_mean(m.power[k]), LOBE_TINY));
-        float mean_length = lobe_min(sqrtf(lobe_dot(direction, direction)), 1);
-        v.emission[k].axis = lobe_normalize_or(direction, lobe_vector(0, 0, 1));
-        v.emission[k].sharpness = sg_sharpness_from_mean_length(mean_length);
-        v.emission[k].log_amplitude = 0;
-        v.intensity[k] = lobe_scale(m.power[k], 1 / sg_integral(v.emission[k].sharpness));
-    }
+    v.variance = lobe_at_least(m.position_squared * inverse - lobe_dot(mean, mean), 0);
+    v.emission[0] = lobe_vsgl_emission(m.power[0], m.direction[0]);
+    v.emission[1] = lobe_vsgl_emission(m.power[1], m.direction[1]);
+    v.intensity[0] = lobe_scale(m.power[0], 1 / sg_integral(v.emission[0].sharpness));
+    v.intensity[1] = lobe_scale(m.power[1], 1 / sg_integral(v.emission[1].sharpness));
     return v;
 }
 
@@ -711,18 +712,16 @@ LOBE_API vsgl vsgl_from_moments(vsgl_moments m, lobe_vec3 origin) {
 LOBE_API vsgl_cluster vsgl_cluster_from_vpl(lobe_vec3 position, lobe_vec3 normal, lobe_vec3 wi, lobe_vec3 diffuse,
                                             lobe_vec3 specular, float alpha) {
     vsgl_cluster c;
-    sg_lobe lobe[2];
-    int k;
-    lobe[VSGL_DIFFUSE] = sg_diffuse_lobe(normal);
-    lobe[VSGL_SPECULAR] = sg_ggx_lobe(normal, wi, alpha);
+    sg_lobe lobe = sg_ggx_lobe(normal, wi, alpha);
+    float dd = lobe_mean(diffuse) / 3, ds = lobe_mean(specular) / (lobe.sharpness + 1);
     c.power[VSGL_DIFFUSE] = diffuse;
     c.power[VSGL_SPECULAR] = specular;
-    for (k = 0; k < 2; k++) {
-        float deficit = lobe_mean(c.power[k]) / (lobe[k].sharpness + 1);
-        c.direction[k].axis = lobe[k].axis;
-        c.direction[k].sharpness = deficit * lobe[k].sharpness;
-        c.direction[k].log_amplitude = -deficit;
-    }
+    c.direction[VSGL_DIFFUSE].axis = normal;
+    c.direction[VSGL_DIFFUSE].sharpness = 2 * dd;
+    c.direction[VSGL_DIFFUSE].log_amplitude = -dd;
+    c.direction[VSGL_SPECULAR].axis = lobe.axis;
+    c.direction[VSGL_SPECULAR].sharpness = lobe.sharpness * ds;
+    c.direction[VSGL_SPECULAR].log_amplitude = -ds;
     c.origin = position;
     c.offset = lobe_vector(0, 0, 0);
     c.spread = 0;
@@ -749,15 +748,15 @@ LOBE_API vsgl_cluster vsgl_cluster_merge(vsgl_cluster a, vsgl_cluster b) {
     vsgl_cluster c;
     float wa = lobe_mean(a.power[0]) + lobe_mean(a.power[1]), wb = lobe_mean(b.power[0]) + lobe_mean(b.power[1]);
     float inverse = 1 / lobe_at_least(wa + wb, LOBE_TINY), share;
-    int k, first = wa >= wb;
+    int first = wa >= wb;
     /* near positions have an exact difference; the minimum keeps -ffast-math from adding offsets to positions first */
     float x = lobe_at_most(b.origin.x - a.origin.x, LOBE_HUGE) + (b.offset.x - a.offset.x);
     float y = lobe_at_most(b.origin.y - a.origin.y, LOBE_HUGE) + (b.offset.y - a.offset.y);
     float z = lobe_at_most(b.origin.z - a.origin.z, LOBE_HUGE) + (b.offset.z - a.offset.z);
-    for (k = 0; k < 2; k++) {
-        c.power[k] = lobe_add(a.power[k], b.power[k]);
-        c.direction[k] = sg_product(a.direction[k], b.direction[k]);
-    }
+    c.power[0] = lobe_add(a.power[0], b.power[0]);
+    c.power[1] = lobe_add(a.power[1], b.power[1]);
+    c.direction[0] = sg_product(a.direction[0], b.direction[0]);
+    c.direction[1] = sg_product(a.direction[1], b.direction[1]);
     /* the heavier one's origin, and the mean from there */
     share = lobe_select(first, wb, -wa) * inverse;
     c.origin.x = lobe_select(first, a.origin.x, b.origin.x);
@@ -768,6 +767,11 @@ LOBE_API vsgl_cluster vsgl_cluster_merge(vsgl_cluster a, vsgl_cluster b) {
     c.offset.z = lobe_select(first, a.offset.z, b.offset.z) + share * z;
     c.spread = a.spread + b.spread + wa * (wb * inverse) * (x * x + y * y + z * z);
     return c;
+}
+
+/* Toksvig's r / (1 - r) from both, each times the weight. */
+LOBE_API float lobe_cluster_sharpness(sg_lobe direction) {
+    return lobe_at_most(direction.sharpness / lobe_at_least(-direction.log_amplitude, 1e-37f), 1e18f);
 }
 
 /*
@@ -782,16 +786,16 @@ LOBE_API vsgl_cluster vsgl_cluster_merge(vsgl_cluster a, vsgl_cluster b) {
 */
 LOBE_API vsgl vsgl_from_cluster(vsgl_cluster c) {
     vsgl v;
-    int k;
     v.position = lobe_add(c.origin, c.offset);
     v.variance = c.spread / lobe_at_least(lobe_mean(c.power[0]) + lobe_mean(c.power[1]), LOBE_TINY);
-    for (k = 0; k < 2; k++) {
-        v.emission[k] = c.direction[k];
-        v.emission[k].sharpness =
-            lobe_at_most(c.direction[k].sharpness / lobe_at_least(-c.direction[k].log_amplitude, 1e-37f), 1e18f);
-        v.emission[k].log_amplitude = 0;
-        v.intensity[k] = lobe_scale(c.power[k], 1 / sg_integral(v.emission[k].sharpness));
-    }
+    v.emission[0].axis = c.direction[0].axis;
+    v.emission[1].axis = c.direction[1].axis;
+    v.emission[0].sharpness = lobe_cluster_sharpness(c.direction[0]);
+    v.emission[1].sharpness = lobe_cluster_sharpness(c.direction[1]);
+    v.emission[0].log_amplitude = 0;
+    v.emission[1].log_amplitude = 0;
+    v.intensity[0] = lobe_scale(c.power[0], 1 / sg_integral(v.emission[0].sharpness));
+    v.intensity[1] = lobe_scale(c.power[1], 1 / sg_integral(v.emission[1].sharpness));
     return v;
 }
 
@@ -802,7 +806,6 @@ LOBE_API sg_lobe lobe_vsgl_incoming(vsgl v, int component, lobe_vec3 point, floa
     sg_lobe g;
     lobe_vec3 offset = lobe_sub(v.position, point), back, pull;
     float squared = lobe_dot(offset, offset), inverse, distance, sharpness, weight, size, chord2;
-    int has_axis;
     /* field by field: an index would go through memory and stop vectorisation */
     back.x = -(component ? v.emission[1].axis.x : v.emission[0].axis.x);
     back.y = -(component ? v.emission[1].axis.y : v.emission[0].axis.y);
@@ -814,12 +817,8 @@ LOBE_API sg_lobe lobe_vsgl_incoming(vsgl v, int component, lobe_vec3 point, floa
     weight = lobe_at_most(v.variance * sharpness, 1e18f); /* whose square is finite */
     pull = lobe_add(lobe_scale(offset, distance), lobe_scale(back, weight));
     size = sqrtf(lobe_dot(pull, pull));
-    has_axis = size > 1e-18f;
-    inverse = 1 / lobe_at_least(size, 1e-18f);
     *inverse_variance = 1 / lobe_at_least(v.variance, 1e-20f);
-    g.axis.x = lobe_select(has_axis, pull.x * inverse, back.x);
-    g.axis.y = lobe_select(has_axis, pull.y * inverse, back.y);
-    g.axis.z = lobe_select(has_axis, pull.z * inverse, back.z);
+    g.axis = lobe_normalize_or(pull, back);
     g.sharpness = size * *inverse_variance;
     g.log_amplitude =
         -(sharpness * chord2) * lobe_at_most(squared / lobe_at_least(size + squared + weight, LOBE_TINY), 1);

@@ -242,7 +242,7 @@ static void test_vectors(void) {
         vec v = random_direction();
         double size;
         begin();
-        size = log_uniform(1e-29, 1e37);
+        size = log_uniform(2e-18, 5e17);
         within(&bound, distance(wide(lobe_normalize_or(narrow(combine(size, v, 0, v)), lobe_vector(0, 0, 0))), v), 0,
                1);
     }
