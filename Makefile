@@ -30,7 +30,7 @@ bench: $(BUILD)/bench
 
 help:
 	@echo 'make           builds and runs the main example: one-bounce glossy indirect light (ARGS="--help" for more)'
-	@echo 'make test      compiles each header alone and the snippet of the README, then runs the unit tests'
+	@echo 'make test      compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
 	@echo 'make bench     speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
 	@echo 'make clean     deletes $(BUILD)/'
 	@echo 'make help      prints this'
