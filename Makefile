@@ -15,7 +15,7 @@ OPENMP := $(call has,-fopenmp)
 endif
 COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS)
 
-HEADERS = sg.h asg.h fis.h
+HEADERS = sg.h asg.h fis.h ggx_bound.h
 COMMON = $(wildcard examples/common/*.c)
 TESTS = $(wildcard tests/*.c)
 
