@@ -165,7 +165,7 @@ LOBE_API float lobe_ggx_slope_aniso(lobe_vec3 dir, lobe_vec3 normal, lobe_vec3 t
 /* What the cosines and the slopes of both directions make of D / pi = (a lobe)^2 */
 LOBE_API float lobe_ggx_reflected(float density, float cos_i, float cos_o, float divisor) {
     float value = 0.5f / LOBE_PI * density * cos_o / lobe_at_least(divisor, LOBE_TINY);
-    return lobe_select(cos_i >= 0 && cos_o > 0, value, 0);
+    return lobe_select((cos_i >= 0) & (cos_o > 0), value, 0);
 }
 
 /* ---- the BRDF ---- */
@@ -413,31 +413,32 @@ LOBE_API float ggx_range(float radiant_intensity, float delta, float xi) {
 
 /* ---- bounding volumes ---- */
 
-/* What a bound starts from: the mirror direction u, w across the plane of incidence, v = w x u, cosine and sine of
-   incidence, alpha, and r. */
-typedef struct lobe_ggx_setup {
-    lobe_vec3 u, v, w;
-    float cos_i, sin_i, range;
-} lobe_ggx_setup;
+/* Cosine and sine of incidence, each as it does not cancel */
+LOBE_API float lobe_ggx_cosine(lobe_vec3 normal, lobe_vec3 wi) {
+    return lobe_at_most(lobe_at_least(lobe_dot(normal, wi), 0), 1);
+}
 
-LOBE_API lobe_ggx_setup lobe_ggx_setup_of(lobe_vec3 normal, lobe_vec3 wi) {
-    lobe_ggx_setup f;
+LOBE_API float lobe_ggx_sine(lobe_vec3 normal, lobe_vec3 wi) {
+    lobe_vec3 across = lobe_cross(normal, wi);
+    return lobe_at_most(sqrtf(lobe_dot(across, across)), 1);
+}
+
+/* The mirror direction u */
+LOBE_API lobe_vec3 lobe_ggx_mirror(lobe_vec3 normal, lobe_vec3 wi) {
+    return lobe_normalize_or(lobe_sub(lobe_scale(normal, 2 * lobe_dot(normal, wi)), wi), normal);
+}
+
+/* w: across the plane of incidence, or any perpendicular to u where normal x wi is mostly rounding. What rounding
+   leaves along u is removed twice, since u's long axis would make it a large error. */
+LOBE_API lobe_vec3 lobe_ggx_across(lobe_vec3 normal, lobe_vec3 wi, lobe_vec3 u) {
     lobe_vec3 across = lobe_cross(normal, wi), any, other;
-    float c = lobe_dot(normal, wi), s = sqrtf(lobe_dot(across, across));
-    int oblique = s > 1e-5f; /* else across is mostly rounding, and any will do */
-    f.u = lobe_normalize_or(lobe_sub(lobe_scale(normal, 2 * c), wi), normal);
-    lobe_frame(f.u, &any, &other);
-    f.w.x = lobe_select(oblique, across.x, any.x);
-    f.w.y = lobe_select(oblique, across.y, any.y);
-    f.w.z = lobe_select(oblique, across.z, any.z);
-    /* twice: the first removes what rounding left along u, of which u's long axis would make a large error */
-    f.w = lobe_normalize_or(lobe_sub(f.w, lobe_scale(f.u, lobe_dot(f.w, f.u))), any);
-    f.w = lobe_normalize_or(lobe_sub(f.w, lobe_scale(f.u, lobe_dot(f.w, f.u))), any);
-    f.v = lobe_cross(f.w, f.u);
-    f.cos_i = lobe_at_most(lobe_at_least(c, 0), 1);
-    f.sin_i = lobe_at_most(s, 1);
-    f.range = 0;
-    return f;
+    int oblique = lobe_dot(across, across) > 1e-10f;
+    lobe_frame(u, &any, &other);
+    across = lobe_vector(lobe_select(oblique, across.x, any.x), lobe_select(oblique, across.y, any.y),
+                         lobe_select(oblique, across.z, any.z));
+    across = lobe_sub(across, lobe_scale(u, lobe_dot(across, u)));
+    across = lobe_sub(across, lobe_scale(u, lobe_dot(across, u)));
+    return lobe_normalize_or(across, any);
 }
 
 /* r for a slope sqrt(c^2 + a^2 s^2); a wi below the horizon, by more than rounding, sends no light out. What rounding
@@ -459,14 +460,14 @@ LOBE_API void lobe_ggx_pad(ggx_ellipsoid *e, float extent) {
     r[2] = sqrtf(factor * (r[2] * r[2] + more));
 }
 
-/* The ellipsoid with its center on the mirror direction, at `along` from the position */
-LOBE_API ggx_ellipsoid lobe_ggx_ellipsoid_of(lobe_vec3 position, lobe_ggx_setup f, float along, float ru, float rv,
-                                             float rw) {
+/* The ellipsoid with its center on the mirror direction u, at `along` from the position; its third axis is w. */
+LOBE_API ggx_ellipsoid lobe_ggx_ellipsoid_of(lobe_vec3 position, lobe_vec3 u, lobe_vec3 w, float along, float ru,
+                                             float rv, float rw) {
     ggx_ellipsoid e;
-    e.center = lobe_add(position, lobe_scale(f.u, along));
-    e.axis[0] = f.u;
-    e.axis[1] = f.v;
-    e.axis[2] = f.w;
+    e.center = lobe_add(position, lobe_scale(u, along));
+    e.axis[0] = u;
+    e.axis[1] = lobe_cross(w, u);
+    e.axis[2] = w;
     e.radius[0] = ru;
     e.radius[1] = rv;
     e.radius[2] = rw;
@@ -492,10 +493,10 @@ LOBE_API ggx_ellipsoid lobe_ggx_ellipsoid_of(lobe_vec3 position, lobe_ggx_setup 
 */
 LOBE_API ggx_ellipsoid ggx_bound_spheroid(lobe_vec3 position, lobe_vec3 normal, lobe_vec3 wi, float alpha, float flux,
                                           float fresnel_max, float delta, float xi) {
-    float a = lobe_ggx_alpha(alpha), r, inverse = 0.5f / a;
-    lobe_ggx_setup f = lobe_ggx_setup_of(normal, wi);
-    r = lobe_ggx_range(normal, wi, lobe_ggx_slope(f.cos_i, a), flux, fresnel_max, delta, xi);
-    return lobe_ggx_ellipsoid_of(position, f, (1 - a) * (1 + a) * inverse * r, (1 + a * a) * inverse * r, r, r);
+    float a = lobe_ggx_alpha(alpha), inverse = 0.5f / a, c = lobe_ggx_cosine(normal, wi);
+    float r = lobe_ggx_range(normal, wi, lobe_ggx_slope(c, a), flux, fresnel_max, delta, xi);
+    lobe_vec3 u = lobe_ggx_mirror(normal, wi), w = lobe_ggx_across(normal, wi, u);
+    return lobe_ggx_ellipsoid_of(position, u, w, (1 - a) * (1 + a) * inverse * r, (1 + a * a) * inverse * r, r, r);
 }
 
 /* d = 1 - eta^2 in (eps / 2, 1] for which the ellipsoid is about smallest, eps = 1 - e, h = e sin^2: within .3 % in the
@@ -525,18 +526,16 @@ LOBE_API float lobe_ggx_tightness(float h, float eps, float c2, float s) {
 LOBE_API ggx_ellipsoid ggx_bound_ellipsoid(lobe_vec3 position, lobe_vec3 normal, lobe_vec3 wi, float alpha, float flux,
                                            float fresnel_max, float delta, float xi) {
     float a = lobe_ggx_alpha(alpha), a2 = a * a, eps = 2 * a2 / (1 + a2), e = (1 - a) * (1 + a) / (1 + a2);
-    float c2, h, d, eta, g, k, r, ru, side;
-    lobe_ggx_setup f = lobe_ggx_setup_of(normal, wi);
-    r = lobe_ggx_range(normal, wi, lobe_ggx_slope(f.cos_i, a), flux, fresnel_max, delta, xi);
-    c2 = f.cos_i * f.cos_i;
-    h = e * (f.sin_i * f.sin_i);
-    d = lobe_ggx_tightness(h, eps, c2, f.sin_i);
+    float c = lobe_ggx_cosine(normal, wi), s = lobe_ggx_sine(normal, wi), c2 = c * c, h = e * (s * s);
+    float r = lobe_ggx_range(normal, wi, lobe_ggx_slope(c, a), flux, fresnel_max, delta, xi);
+    float d = lobe_ggx_tightness(h, eps, c2, s), eta, g, k, ru, side;
+    lobe_vec3 u = lobe_ggx_mirror(normal, wi), w = lobe_ggx_across(normal, wi, u);
     eta = sqrtf(1 - d);
     k = 1 + h * (1 + eta) / (d / (1 + eta) + 2 * eta * c2);
     g = 2 * d / ((2 * d - eps) * (1 + a2));
     ru = 0.5f * (a + 1 / a) * g * r;
     side = sqrtf(g) * r;
-    return lobe_ggx_ellipsoid_of(position, f, r / a - ru, ru, side, side / sqrtf(k));
+    return lobe_ggx_ellipsoid_of(position, u, w, r / a - ru, ru, side, side / sqrtf(k));
 }
 
 /* Entries of the quadratic form uu U^2 + 2 ub U b + bb b^2 + (third axis)^2 <= 2 eps R U that bounds an anisotropic
@@ -590,16 +589,16 @@ LOBE_API ggx_ellipsoid ggx_bound_ellipsoid_aniso(lobe_vec3 position, lobe_vec3 n
     float first, second, along, aside, size, ev, ew;
     int better;
     lobe_ggx_form q, other;
-    lobe_vec3 tx, ty, beside;
+    lobe_vec3 tx, ty, beside, u = lobe_ggx_mirror(normal, wi), w = lobe_ggx_across(normal, wi, u), v = lobe_cross(w, u);
+    float c = lobe_ggx_cosine(normal, wi), s = lobe_ggx_sine(normal, wi);
     ggx_ellipsoid e;
-    lobe_ggx_setup f = lobe_ggx_setup_of(normal, wi);
     r = lobe_ggx_range(normal, wi, lobe_ggx_slope_aniso(wi, normal, tangent, ax, ay), flux, fresnel_max, delta, xi) /
         sqrtf(ax * ay);
-    c2 = f.cos_i * f.cos_i;
+    c2 = c * c;
     /* X in the frame of the plane of incidence */
     lobe_ggx_tangents(normal, tangent, &tx, &ty);
-    cosine = lobe_dot(f.w, ty);
-    sine = -lobe_dot(f.w, tx);
+    cosine = lobe_dot(w, ty);
+    sine = -lobe_dot(w, tx);
     size = 1 / sqrtf(lobe_at_least(cosine * cosine + sine * sine, LOBE_TINY));
     cosine *= size;
     sine *= size;
@@ -622,21 +621,21 @@ LOBE_API ggx_ellipsoid ggx_bound_ellipsoid_aniso(lobe_vec3 position, lobe_vec3 n
     c2_rest = lobe_select(better, second, c2_rest);
     /* the quadratic form in U and along (c1 c, c2), for the best of three d */
     eps = 2 / (2 + kappa);
-    ev = c1 * f.cos_i;
+    ev = c1 * c;
     l2 = ev * ev + c2_rest * c2_rest;
     h = 0.5f * eps * (c2 * c1 * c1 + c2_rest * c2_rest);
-    d = lobe_ggx_tightness(h, eps, c2, f.sin_i);
+    d = lobe_ggx_tightness(h, eps, c2, s);
     least = lobe_at_most(1.25f * eps, d);
-    q = lobe_ggx_form_of(d, eps, c2, f.sin_i, c1, l2);
+    q = lobe_ggx_form_of(d, eps, c2, s, c1, l2);
     merit = lobe_ggx_form_merit(q);
-    other = lobe_ggx_form_of(lobe_at_least(0.6f * d, least), eps, c2, f.sin_i, c1, l2);
+    other = lobe_ggx_form_of(lobe_at_least(0.6f * d, least), eps, c2, s, c1, l2);
     better = lobe_ggx_form_merit(other) > merit;
     merit = lobe_select(better, lobe_ggx_form_merit(other), merit);
     q.uu = lobe_select(better, other.uu, q.uu);
     q.ub = lobe_select(better, other.ub, q.ub);
     q.bb = lobe_select(better, other.bb, q.bb);
     q.det = lobe_select(better, other.det, q.det);
-    other = lobe_ggx_form_of(lobe_at_least(0.35f * d, least), eps, c2, f.sin_i, c1, l2);
+    other = lobe_ggx_form_of(lobe_at_least(0.35f * d, least), eps, c2, s, c1, l2);
     better = lobe_ggx_form_merit(other) > merit;
     q.uu = lobe_select(better, other.uu, q.uu);
     q.ub = lobe_select(better, other.ub, q.ub);
@@ -658,11 +657,11 @@ LOBE_API ggx_ellipsoid ggx_bound_ellipsoid_aniso(lobe_vec3 position, lobe_vec3 n
     size = 1 / sqrtf(lobe_at_least(l2, LOBE_TINY));
     ew = lobe_select(l2 > 1e-20f, c2_rest * size, 0);
     ev = lobe_select(l2 > 1e-20f, ev * size, 1);
-    beside = lobe_add(lobe_scale(f.v, ev), lobe_scale(f.w, ew));
-    e.center = lobe_add(position, lobe_add(lobe_scale(f.u, along), lobe_scale(beside, aside)));
-    e.axis[0] = lobe_add(lobe_scale(f.u, turn_cos), lobe_scale(beside, turn));
-    e.axis[1] = lobe_sub(lobe_scale(beside, turn_cos), lobe_scale(f.u, turn));
-    e.axis[2] = lobe_sub(lobe_scale(f.w, ev), lobe_scale(f.v, ew));
+    beside = lobe_add(lobe_scale(v, ev), lobe_scale(w, ew));
+    e.center = lobe_add(position, lobe_add(lobe_scale(u, along), lobe_scale(beside, aside)));
+    e.axis[0] = lobe_add(lobe_scale(u, turn_cos), lobe_scale(beside, turn));
+    e.axis[1] = lobe_sub(lobe_scale(beside, turn_cos), lobe_scale(u, turn));
+    e.axis[2] = lobe_sub(lobe_scale(w, ev), lobe_scale(v, ew));
     e.radius[0] = level / sqrtf(lobe_select(better, second, first));
     e.radius[1] = level / sqrtf(lobe_select(better, first, second));
     e.radius[2] = level;
@@ -683,7 +682,7 @@ LOBE_API ggx_ellipsoid ggx_bound_ellipsoid_aniso(lobe_vec3 position, lobe_vec3 n
 LOBE_API ggx_sphere ggx_bound_sphere(lobe_vec3 position, lobe_vec3 normal, lobe_vec3 wi, float alpha, float flux,
                                      float fresnel_max, float delta, float xi) {
     ggx_sphere s;
-    float a = lobe_ggx_alpha(alpha), c = lobe_at_most(lobe_at_least(lobe_dot(normal, wi), 0), 1);
+    float a = lobe_ggx_alpha(alpha), c = lobe_ggx_cosine(normal, wi);
     s.center = position;
     s.radius = lobe_ggx_range(normal, wi, lobe_ggx_slope(c, a), flux, fresnel_max, delta, xi) / a;
     s.radius += 4.76837158e-7f * (lobe_ggx_extent(position) + s.radius) + 1e-12f;
@@ -740,15 +739,11 @@ LOBE_API ggx_sphere ggx_bound_diffuse(lobe_vec3 position, lobe_vec3 normal, floa
 */
 LOBE_API ggx_ellipsoid ggx_bound_diffuse_ellipsoid(lobe_vec3 position, lobe_vec3 normal, float flux, float albedo,
                                                    float delta, float xi) {
-    lobe_ggx_setup f;
     float r = lobe_ggx_diffuse_range(flux, albedo, delta, xi);
-    f.u = normal;
-    f.cos_i = 1;
-    f.sin_i = 0;
-    f.range = r;
-    lobe_frame(normal, &f.v, &f.w);
-    f.w = lobe_cross(f.u, f.v);
-    return lobe_ggx_ellipsoid_of(position, f, 0.4556264f * r, 0.5443738f * r, 0.6246771f * r, 0.6246771f * r);
+    lobe_vec3 x, y;
+    lobe_frame(normal, &x, &y);
+    return lobe_ggx_ellipsoid_of(position, normal, lobe_cross(normal, x), 0.4556264f * r, 0.5443738f * r,
+                                 0.6246771f * r, 0.6246771f * r);
 }
 
 /* ---- tests against boxes and tiles ---- */
@@ -886,6 +881,7 @@ LOBE_API int ggx_ellipsoid_hits_box(ggx_ellipsoid e, lobe_vec3 box_center, lobe_
     lobe_ggx_metric m = lobe_ggx_metric_of(e);
     float size = lobe_ggx_extent(offset) + lobe_ggx_extent(half_size) + ggx_bound_enclosing(e).radius;
     float slack = 9.53674316e-7f * size;
+    int parted;
     float x = lobe_ggx_gap(e.axis[0], e.radius[0], offset, half_size, slack);
     float y = lobe_ggx_gap(e.axis[1], e.radius[1], offset, half_size, slack);
     float z = lobe_ggx_gap(e.axis[2], e.radius[2], offset, half_size, slack);
@@ -893,10 +889,11 @@ LOBE_API int ggx_ellipsoid_hits_box(ggx_ellipsoid e, lobe_vec3 box_center, lobe_
                     lobe_ggx_clamp(0, offset.z, half_size.z));
     p = lobe_ggx_descend(m, lobe_ggx_descend(m, lobe_ggx_descend(m, p, offset, half_size), offset, half_size), offset,
                          half_size);
-    return x * x + y * y + z * z <= 1.00001f && !lobe_ggx_parted(e, lobe_vector(1, 0, 0), offset, half_size, slack) &&
-           !lobe_ggx_parted(e, lobe_vector(0, 1, 0), offset, half_size, slack) &&
-           !lobe_ggx_parted(e, lobe_vector(0, 0, 1), offset, half_size, slack) &&
-           !lobe_ggx_parted(e, lobe_ggx_gradient(m, p), offset, half_size, slack);
+    parted = lobe_ggx_parted(e, lobe_vector(1, 0, 0), offset, half_size, slack) |
+             lobe_ggx_parted(e, lobe_vector(0, 1, 0), offset, half_size, slack) |
+             lobe_ggx_parted(e, lobe_vector(0, 0, 1), offset, half_size, slack) |
+             lobe_ggx_parted(e, lobe_ggx_gradient(m, p), offset, half_size, slack);
+    return (x * x + y * y + z * z <= 1.00001f) & !parted;
 }
 
 /*
@@ -992,9 +989,9 @@ LOBE_API int ggx_stretched_hits_tile(ggx_stretched s, ggx_tile tile, float depth
    Source:   the support function of an ellipsoid: what the sheared bounds of the stretched frustum miss
 */
 LOBE_API int ggx_ellipsoid_hits_sides(ggx_ellipsoid e, ggx_tile tile) {
-    return ggx_ellipsoid_hits_half_space(e, lobe_vector(1, 0, -tile.left), 0) &&
-           ggx_ellipsoid_hits_half_space(e, lobe_vector(-1, 0, tile.right), 0) &&
-           ggx_ellipsoid_hits_half_space(e, lobe_vector(0, 1, -tile.bottom), 0) &&
+    return ggx_ellipsoid_hits_half_space(e, lobe_vector(1, 0, -tile.left), 0) &
+           ggx_ellipsoid_hits_half_space(e, lobe_vector(-1, 0, tile.right), 0) &
+           ggx_ellipsoid_hits_half_space(e, lobe_vector(0, 1, -tile.bottom), 0) &
            ggx_ellipsoid_hits_half_space(e, lobe_vector(0, -1, tile.top), 0);
 }
 
@@ -1010,8 +1007,8 @@ LOBE_API int ggx_ellipsoid_hits_sides(ggx_ellipsoid e, ggx_tile tile) {
 */
 LOBE_API int ggx_stretched_hits_clusters(ggx_stretched s, ggx_tile tile, const float near_depth[2],
                                          const float far_depth[2]) {
-    int first = near_depth[0] <= near_depth[1] && ggx_stretched_hits_tile(s, tile, near_depth[0], near_depth[1]);
-    int second = far_depth[0] <= far_depth[1] && ggx_stretched_hits_tile(s, tile, far_depth[0], far_depth[1]);
+    int first = (near_depth[0] <= near_depth[1]) & ggx_stretched_hits_tile(s, tile, near_depth[0], near_depth[1]);
+    int second = (far_depth[0] <= far_depth[1]) & ggx_stretched_hits_tile(s, tile, far_depth[0], far_depth[1]);
     return first + 2 * second;
 }
 
