@@ -503,6 +503,14 @@ static void test_ellipsoid_aniso(void) {
 }
 
 static void test_spheres(void) {
+    int i;
+    for (i = 0; i < 100000; i++) { /* the reach at the NDF's peak, where grazing angles make it uncertain */
+        light l = draw_light(1e-3, 1e5);
+        vec mirror = combine(2 * dot(l.i, l.n), l.n, -1, l.i);
+        ggx_sphere s = ggx_bound_sphere(l.position, l.normal, l.wi, l.alpha_x, l.flux, l.fresnel, l.delta, l.xi);
+        record_light(&l);
+        that((double)s.radius >= range_towards(&l, mirror, (double)l.alpha_x, ENVELOPE), "the radius is the reach");
+    }
     search_volume(AT_LIGHT, 250, 4, 25);
     search_volume(ENCLOSING, 250, 4, 25);
 }
@@ -1158,6 +1166,31 @@ static void test_boxes(void) {
     test_report(&false_hits);
 }
 
+/* A camera that looks anywhere from anywhere: what was inside is inside of the turned ellipsoid */
+static void test_transform(void) {
+    int i, k;
+    for (i = 0; i < 200000; i++) {
+        ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-2, 1e4), 1e-4), turned;
+        vec u = random_direction(), v = perpendicular(u), p, offset;
+        lobe_vec3 view[3], eye = narrow(combine(log_uniform(1e-2, 1e4), random_direction(), 0, u));
+        view[0] = narrow(u);
+        view[1] = narrow(v);
+        view[2] = narrow(cross(u, v));
+        e.center = narrow(combine(log_uniform(1e-2, 1e4), random_direction(), 0, u));
+        p = wide(e.center);
+        u = random_direction();
+        for (k = 0; k < 3; k++) p = combine(1, p, (1 - 1e-9) * (double)e.radius[k] * component(u, k), wide(e.axis[k]));
+        offset = combine(1, p, -1, wide(eye));
+        turned = ggx_ellipsoid_transform(e, view, eye);
+        record_ellipsoid(&e);
+        for (k = 0; k < 3; k++) record_vector(view[k]);
+        record_vector(eye);
+        if (stretched_squared(&e, p) > 1) continue;
+        p = wide(narrow(of(dot(wide(view[0]), offset), dot(wide(view[1]), offset), dot(wide(view[2]), offset))));
+        that(stretched_squared(&turned, p) <= 1, "what is in an ellipsoid is in the turned one");
+    }
+}
+
 static ggx_tile random_tile(void) {
     ggx_tile t;
     double x = 2 * uniform() - 1, y = 2 * uniform() - 1, size = log_uniform(0.01, 0.3);
@@ -1290,11 +1323,12 @@ static float wild(int low, int high) { /* any float of those exponents, sometime
 }
 
 static lobe_vec3 wild_axis(lobe_vec3 other) {
-    int kind = pick(6);
+    int kind = pick(7);
     if (kind == 0) return other;
     if (kind == 1) return lobe_scale(other, -1);
     if (kind == 2) return narrow(perpendicular(unit(wide(other))));
     if (kind == 3) return narrow(unit_axis(pick(3)));
+    if (kind == 4) return narrow(unit(combine(1, wide(other), log_uniform(1e-9, 1e-4), random_direction())));
     return nearly_unit(random_direction());
 }
 
@@ -1435,6 +1469,7 @@ const test_case ggx_bound_tests[] = {{"ggx_ndf", test_ndf},
                                      {"ggx_bound_volumes_aniso", test_volumes_aniso},
                                      {"ggx_bound_diffuse", test_diffuse},
                                      {"ggx_boxes", test_boxes},
+                                     {"ggx_transform", test_transform},
                                      {"ggx_tiles", test_tiles},
                                      {"ggx_edges", test_bound_edges},
                                      {"ggx_special_cases", test_special_cases},
