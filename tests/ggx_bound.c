@@ -480,8 +480,8 @@ static void search_volume(volume kind, int lights, int starts, int steps) {
         light l = draw_light(1e-3, 1e5);
         search(&l, kind, starts, steps, &worst);
     }
-    note = stated("largest square of the stretched distance", 1);
-    note.worst = worst;
+    note = stated("1 less the largest square of the stretched distance", 1);
+    note.worst = 1 - worst;
     test_report(&note);
     if (test_repeat > 1) {
         note = stated("points tried", 1e9);

@@ -83,7 +83,7 @@ static void usage(FILE *to) {
     fprintf(to, "usage: tests [--verbose] [--long] [--root DIR] [NAME]\n"
                 "  NAME       run only the tests whose name contains it\n"
                 "  --verbose  print the largest error seen beside each bound\n"
-                "  --long     search a hundred times longer for what exceeds a bounding volume\n"
+                "  --long     search four hundred times longer for what exceeds a bounding volume\n"
                 "  --root     where the headers are (default: .)\n");
 }
 
@@ -103,7 +103,7 @@ int main(int argc, char **argv) {
         } else if (!strcmp(argv[i], "--verbose")) {
             verbose = 1;
         } else if (!strcmp(argv[i], "--long")) {
-            test_repeat = 100;
+            test_repeat = 400;
         } else if (!strcmp(argv[i], "--root") && i + 1 < argc) {
             root = argv[++i];
         } else if (argv[i][0] == '-') {
