@@ -65,7 +65,7 @@
    ggx_ellipsoid_hits_half_space, ggx_ellipsoid_hits_box
    ggx_stretch_ellipsoid            the stretched and rotated space in which an ellipsoid is a unit sphere
    ggx_stretched_hits_tile, _hits_clusters   the paper's test of an ellipsoid with a tile's frustum
-   ggx_ellipsoid_hits_sides         what that leaves out
+   ggx_stretched_hits_frustum, ggx_ellipsoid_hits_sides   closer tests of the same
    ggx_tile_above                   whether part of a tile is above the light's horizon
 
  Papers named in the sources: 003 is Tokuyoshi and Harada 2017, Stochastic Light Culling for VPLs on GGX Microsurfaces.
@@ -993,6 +993,58 @@ LOBE_API int ggx_ellipsoid_hits_sides(ggx_ellipsoid e, ggx_tile tile) {
            ggx_ellipsoid_hits_half_space(e, lobe_vector(-1, 0, tile.right), 0) &
            ggx_ellipsoid_hits_half_space(e, lobe_vector(0, 1, -tile.bottom), 0) &
            ggx_ellipsoid_hits_half_space(e, lobe_vector(0, -1, tile.top), 0);
+}
+
+/* The point of a tile's frustum that is lowest along a direction of the stretched space, relative to the ellipsoid */
+LOBE_API lobe_vec3 lobe_ggx_support(ggx_stretched s, ggx_tile tile, float depth0, float depth1, lobe_vec3 q) {
+    float gx = s.xx * q.x, gy = s.xy * q.x + s.yy * q.y, gz = s.xz * q.x + s.yz * q.y + s.zz * q.z, x, y, z;
+    x = lobe_select(gx > 0, lobe_select(s.swapped, tile.bottom, tile.left),
+                    lobe_select(s.swapped, tile.top, tile.right));
+    y = lobe_select(gy > 0, lobe_select(s.swapped, tile.left, tile.bottom),
+                    lobe_select(s.swapped, tile.right, tile.top));
+    z = lobe_select(gx * x + gy * y + gz > 0, depth0, depth1);
+    return lobe_vector(z * (s.xx * x + s.xy * y + s.xz) - s.center.x, z * (s.yy * y + s.yz) - s.center.y,
+                       z * s.zz - s.center.z);
+}
+
+/* Moves a point of the frustum towards another, to where the line is nearest to the ellipsoid's center */
+LOBE_API lobe_vec3 lobe_ggx_nearer(lobe_vec3 q, lobe_vec3 other) {
+    lobe_vec3 step = lobe_sub(other, q);
+    float t = lobe_at_least(-lobe_dot(q, step), 0) / lobe_at_least(lobe_dot(step, step), LOBE_TINY);
+    return lobe_add(q, lobe_scale(step, lobe_at_most(t, 1)));
+}
+
+/*
+ ggx_stretched_hits_frustum - the same test of an ellipsoid and a tile, closer: for what ggx_stretched_hits_tile and
+ ggx_ellipsoid_hits_sides let through
+
+   others     as in ggx_stretched_hits_tile
+   returns    1, or 0: surely not
+
+   Rounding: covered as there
+   Model:    of what passes all three, among frustums near the ellipsoid, at most 4 % does not meet it
+             [bound ggx_stretched_hits_frustum false_hits .04]
+   Source:   Gilbert 1966, An Iterative Procedure for Computing the Minimum of a Quadratic Form on a Convex Set: each
+             step looks for a plane between the sphere and the frustum, across the line to the nearest point known, and
+             moves this towards the frustum's lowest point there
+*/
+LOBE_API int ggx_stretched_hits_frustum(ggx_stretched s, ggx_tile tile, float depth0, float depth1) {
+    float wide = lobe_max(fabsf(tile.left), fabsf(tile.right)), high = lobe_max(fabsf(tile.bottom), fabsf(tile.top));
+    float most = lobe_max(wide, high), z = 0.5f * (depth0 + depth1), x, y, slack;
+    int step, parted = 0;
+    lobe_vec3 q, lowest;
+    slack = 1.00001f + 1.90734863e-6f *
+                           (s.size + depth1 * ((s.xx + fabsf(s.xy) + s.yy) * most + fabsf(s.xz) + fabsf(s.yz) + s.zz));
+    x = 0.5f * lobe_select(s.swapped, tile.bottom + tile.top, tile.left + tile.right);
+    y = 0.5f * lobe_select(s.swapped, tile.left + tile.right, tile.bottom + tile.top);
+    q = lobe_vector(z * (s.xx * x + s.xy * y + s.xz) - s.center.x, z * (s.yy * y + s.yz) - s.center.y,
+                    z * s.zz - s.center.z);
+    for (step = 0; step < 3; step++) {
+        lowest = lobe_ggx_support(s, tile, depth0, depth1, q);
+        parted |= lobe_dot(q, lowest) > slack * sqrtf(lobe_dot(q, q));
+        q = lobe_ggx_nearer(q, lowest);
+    }
+    return !parted;
 }
 
 /*

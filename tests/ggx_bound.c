@@ -1213,8 +1213,9 @@ static void record_tile(ggx_tile t, float depth0, float depth1) {
 static void test_tiles(void) {
     test_bound false_hits = bound_of("ggx_stretched_hits_tile", "false_hits");
     test_bound both_hit = bound_of("ggx_ellipsoid_hits_sides", "false_hits");
+    test_bound closer = bound_of("ggx_stretched_hits_frustum", "false_hits");
     test_bound above = bound_of("ggx_tile_above", "slack");
-    long touching = 0, apart = 0, hits = 0, apart_by_both = 0, hits_both = 0;
+    long touching = 0, apart = 0, hits = 0, apart_by_both = 0, hits_both = 0, apart_closer = 0, hits_closer = 0;
     int i;
     for (i = 0; i < 200000; i++) {
         ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-2, 1e3), 1e-3);
@@ -1244,6 +1245,8 @@ static void test_tiles(void) {
         if (stretched_squared(&e, p) > 1) continue;
         touching++;
         that(ggx_stretched_hits_tile(ggx_stretch_ellipsoid(e), t, depth0, depth1), "a tile that is touched is hit");
+        that(ggx_stretched_hits_frustum(ggx_stretch_ellipsoid(e), t, depth0, depth1),
+             "a frustum that is touched is hit");
         that(ggx_ellipsoid_hits_sides(e, t), "the sides of a tile that is touched are hit");
         near_depth[0] = depth0;
         near_depth[1] = half_depth;
@@ -1265,7 +1268,7 @@ static void test_tiles(void) {
         float depth0 = float_of(log_uniform(0.5, 5)), depth1 = depth0 * (1 + float_of(log_uniform(1e-2, 1)));
         body b = tile_body(t, (double)depth0, (double)depth1);
         double z = (double)depth0 + uniform() * ((double)depth1 - (double)depth0), exact;
-        int hit;
+        int hit, close;
         e.center = narrow(combine(z, of((double)t.left, (double)t.top, 1), (double)e.radius[0] * 1.5 * cbrt(uniform()),
                                   random_direction()));
         exact = body_distance(&e, &b, 1e-9);
@@ -1279,10 +1282,15 @@ static void test_tiles(void) {
         if (exact <= 1) that(hit, "the sides of a tile that the ellipsoid meets are hit");
         hits_both += hit;
         apart_by_both += hit && exact > 1;
+        close = hit && ggx_stretched_hits_frustum(ggx_stretch_ellipsoid(e), t, depth0, depth1);
+        if (exact <= 1) that(close, "a frustum that the ellipsoid meets is hit");
+        hits_closer += close;
+        apart_closer += close && exact > 1;
     }
     begin();
     within(&false_hits, (double)apart / (double)hits, 0, 1);
     within(&both_hit, (double)apart_by_both / (double)hits_both, 0, 1);
+    within(&closer, (double)apart_closer / (double)hits_closer, 0, 1);
     for (i = 0; i < 100000; i++) {
         ggx_tile t = random_tile();
         float depth0 = float_of(log_uniform(0.01, 100)), depth1 = depth0 * (1 + float_of(log_uniform(1e-3, 10)));
@@ -1313,6 +1321,7 @@ static void test_tiles(void) {
     }
     test_report(&false_hits);
     test_report(&both_hit);
+    test_report(&closer);
 }
 
 /* ---- edges ---- */

@@ -10,11 +10,17 @@ static void usage(FILE *to, const options *o, const char *program, const char *a
     fprintf(to, "usage: %s [options]\n%s\n\n", program, about);
     fprintf(to, "  --size WxH       of each image in pixels, 16x16 to 4096x4096 (default %dx%d)\n", o->width,
             o->height);
-    fprintf(to, "  --lights N,...   numbers of lights to try, up to %d of them, 1 to 65536 (default ",
-            OPTIONS_MAX_LIGHTS);
-    for (i = 0; i < o->light_counts; i++) fprintf(to, "%s%d", i ? "," : "", o->lights[i]);
-    fprintf(to, ")\n");
-    fprintf(to, "  --samples N      paths per pixel of the reference, 2 to 1000000 (default %d)\n", o->samples);
+    if (o->light_counts) {
+        fprintf(to, "  --lights N,...   numbers of lights to try, up to %d of them, 1 to 65536 (default ",
+                OPTIONS_MAX_LIGHTS);
+        for (i = 0; i < o->light_counts; i++) fprintf(to, "%s%d", i ? "," : "", o->lights[i]);
+        fprintf(to, ")\n");
+    }
+    if (o->samples)
+        fprintf(to, "  --samples N      paths per pixel of the reference, 2 to 1000000 (default %d)\n", o->samples);
+    if (o->delta > 0)
+        fprintf(to, "  --delta X        radiance below which lights are left out at random, 1e-9 to 1e9 (default %g)\n",
+                (double)o->delta);
     fprintf(to, "  --seed N         shifts every sample, 0 to 4294967295 (default %u)\n", o->seed);
     fprintf(to, "  --out PREFIX     beginning of the images' names (default %s)\n", o->out);
     fprintf(to, "  --help           prints this\n");
@@ -50,6 +56,22 @@ static int read_lights(options *o, const char *text) {
     }
 }
 
+static int read_delta(options *o, const char *text) {
+    char *end;
+    double value = strtod(text, &end);
+    if (end == text || *end || !(value >= 1e-9 && value <= 1e9)) return 0;
+    o->delta = (float)value;
+    return 1;
+}
+
+/* Whether the program has the option. */
+static int known(const options *defaults, const char *name) {
+    if (!strcmp(name, "--lights")) return defaults->light_counts > 0;
+    if (!strcmp(name, "--samples")) return defaults->samples > 0;
+    if (!strcmp(name, "--delta")) return defaults->delta > 0;
+    return !strcmp(name, "--size") || !strcmp(name, "--seed") || !strcmp(name, "--out");
+}
+
 void options_read(options *o, int argc, char **argv, const char *about) {
     const options defaults = *o;
     int i;
@@ -60,8 +82,7 @@ void options_read(options *o, int argc, char **argv, const char *about) {
         if (!strcmp(name, "--help")) {
             usage(stdout, &defaults, argv[0], about);
             exit(0);
-        } else if (strcmp(name, "--size") && strcmp(name, "--lights") && strcmp(name, "--samples") &&
-                   strcmp(name, "--seed") && strcmp(name, "--out")) {
+        } else if (!known(&defaults, name)) {
             fprintf(stderr, "%s: unknown argument '%s'\n", argv[0], name);
         } else if (!value) {
             fprintf(stderr, "%s: %s needs a value\n", argv[0], name);
@@ -76,6 +97,8 @@ void options_read(options *o, int argc, char **argv, const char *about) {
             } else if (!strcmp(name, "--seed")) {
                 right = number(value, 0, UINT_MAX, &n, &rest) && !*rest;
                 o->seed = (unsigned)n;
+            } else if (!strcmp(name, "--delta")) {
+                right = read_delta(o, value);
             } else {
                 right = *value != 0;
                 o->out = value;

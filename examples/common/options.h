@@ -10,9 +10,12 @@ typedef struct {
     unsigned seed;
     int samples;
     const char *out;
+    float delta; /* radiance below which lights are left out at random */
 } options;
 
-/* Reads the arguments into o, which holds the defaults. --help: prints usage to stdout and exits with 0; anything
+/* A program that gives no default for the number of lights, the samples or delta has no such option.
+
+   Reads the arguments into o, which holds the defaults. --help: prints usage to stdout and exits with 0; anything
    wrong: says what on stderr, with the usage, and exits with 2. `about` is the first line of the help. */
 void options_read(options *o, int argc, char **argv, const char *about);
 
