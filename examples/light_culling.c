@@ -22,9 +22,8 @@ enum {
     INTERLEAVE = 8,
     SUBSETS = INTERLEAVE * INTERLEAVE,
     SUBSET_LIGHTS = RSM_SIZE * RSM_SIZE / SUBSETS,
-    TILE = 16,
-    TILE_PIXELS = TILE * TILE,
-    REFERENCE_STEP = 7, /* the sum over all lights is taken at every 7th pixel of every 7th row: of all subsets */
+    TILE_PIXELS = 16 * 16, /* of the largest tile */
+    REFERENCE_STEP = 7,    /* the sum over all lights is taken at every 7th pixel of every 7th row: of all subsets */
     FILTER_RADIUS = 8,
     REPEATS = 3
 };
@@ -152,7 +151,7 @@ static void put_pixel(tile *t, const buffer *view, int index) {
 }
 
 /* Puts the pixels of a square of a subset into a tile: first those before the middle of its depths, then the rest. */
-static void fill_tile(tile *t, const buffer *view, const view_frame *frame, int subset, int left, int top) {
+static void fill_tile(tile *t, const buffer *view, const view_frame *frame, int subset, int left, int top, int edge) {
     float low = SCENE_FAR, high = 0, middle;
     int pass, x, y;
     t->subset = subset;
@@ -161,8 +160,8 @@ static void fill_tile(tile *t, const buffer *view, const view_frame *frame, int 
     t->frustum.right = t->frustum.top = -SCENE_FAR;
     for (pass = 0; pass < 3; pass++) {
         middle = 0.5f * (low + high);
-        for (y = top; y < top + TILE; y++) {
-            for (x = left; x < left + TILE; x++) {
+        for (y = top; y < top + edge; y++) {
+            for (x = left; x < left + edge; x++) {
                 int column = x * INTERLEAVE + subset % INTERLEAVE, row = y * INTERLEAVE + subset / INTERLEAVE;
                 const texel *pixel = &view->texels[row * view->width + column];
                 vec3 p;
@@ -188,16 +187,16 @@ static void fill_tile(tile *t, const buffer *view, const view_frame *frame, int 
     }
 }
 
-static tile *make_tiles(const buffer *view, const view_frame *frame, int *count) {
-    const int columns = (view->width + INTERLEAVE * TILE - 1) / (INTERLEAVE * TILE);
-    const int rows = (view->height + INTERLEAVE * TILE - 1) / (INTERLEAVE * TILE), each = columns * rows;
+static tile *make_tiles(const buffer *view, const view_frame *frame, int edge, int *count) {
+    const int columns = (view->width + INTERLEAVE * edge - 1) / (INTERLEAVE * edge);
+    const int rows = (view->height + INTERLEAVE * edge - 1) / (INTERLEAVE * edge), each = columns * rows;
     tile *tiles;
     int i;
     *count = SUBSETS * each;
     tiles = (tile *)allocate((size_t)*count, sizeof *tiles);
     PARALLEL_FOR
     for (i = 0; i < *count; i++)
-        fill_tile(&tiles[i], view, frame, i / each, i % each % columns * TILE, i % each / columns * TILE);
+        fill_tile(&tiles[i], view, frame, i / each, i % each % columns * edge, i % each / columns * edge, edge);
     return tiles;
 }
 
@@ -534,6 +533,19 @@ static double error_of(const buffer *view, const tile *tiles, int tile_count, co
     return count ? sqrt(sum / (double)count) : 0;
 }
 
+/* Light at the reference's pixels over what it should be there */
+static double mean_of(const tile *tiles, int tile_count, const image *got, const image *wanted) {
+    double sum = 0, wanted_sum = 0;
+    int i, k;
+    for (i = 0; i < tile_count; i++) {
+        for (k = 0; k < tiles[i].count; k++) {
+            sum += (double)lobe_mean(got->pixels[tiles[i].pixel[k]]);
+            wanted_sum += (double)lobe_mean(wanted->pixels[tiles[i].pixel[k]]);
+        }
+    }
+    return wanted_sum > 0 ? sum / wanted_sum : 0;
+}
+
 typedef struct {
     double shaded, inside, accepted; /* glossy lights per pixel */
     double bound_ms, cull_ms, shade_ms;
@@ -675,10 +687,10 @@ typedef struct {
     image noisy, smooth, wanted, heat, composed, results, heats;
 } pictures;
 
-static void print_row(float alpha, volume which, const outcome *o, double noisy, double smooth) {
-    printf("%5g  %-18s%9.2f%9.2f%9.2f%9.2f%9.2f%9.2f%9.2f  %.5f  %.5f\n", (double)alpha, volume_names[which], o->shaded,
-           o->shaded - o->accepted, o->inside - o->accepted, o->bound_ms, o->cull_ms, o->shade_ms,
-           o->bound_ms + o->cull_ms + o->shade_ms, noisy, smooth);
+static void print_row(float alpha, volume which, const outcome *o, double noisy, double smooth, double mean) {
+    printf("%5g  %-18s%9.2f%9.2f%9.2f%9.2f%9.2f%9.2f%9.2f  %.5f  %.5f %.4f\n", (double)alpha, volume_names[which],
+           o->shaded, o->shaded - o->accepted, o->inside - o->accepted, o->bound_ms, o->cull_ms, o->shade_ms,
+           o->bound_ms + o->cull_ms + o->shade_ms, noisy, smooth, mean);
     fflush(stdout);
 }
 
@@ -688,19 +700,20 @@ static void vary_delta(renderer *r, const options *o, const tile *reference, int
     static const volume shapes[] = {AT_LIGHT, SPHEROID, ELLIPSOID};
     int i, k;
     printf("\nat alpha %g as delta varies: milliseconds for bounds, culling and shading\n", (double)alphas[ALPHAS - 1]);
-    printf("%9s%20s%11s%11s%11s  %-8s %-8s\n", "delta", "sphere at the VPL", "spheroid", "ellipsoid", "VPLs/px", "RMSE",
-           "denoised");
+    printf("%9s%20s%11s%11s%11s  %-8s %-8s %s\n", "delta", "sphere at the VPL", "spheroid", "ellipsoid", "VPLs/px",
+           "RMSE", "denoised", "mean");
     for (i = 0; i < (int)(sizeof factors / sizeof *factors); i++) {
         outcome found[3];
         for (k = 0; k < 3; k++) found[k] = render(r, shapes[k], o->delta * factors[i], shapes[k] == ELLIPSOID);
         gather(r->tiles, r->tile_count, 1, &p->noisy);
         denoise(r->view, &p->noisy, &p->smooth);
-        printf("%9g%20.2f%11.2f%11.2f%11.2f  %.5f  %.5f\n", (double)(o->delta * factors[i]),
+        printf("%9g%20.2f%11.2f%11.2f%11.2f  %.5f  %.5f %.4f\n", (double)(o->delta * factors[i]),
                found[0].bound_ms + found[0].cull_ms + found[0].shade_ms,
                found[1].bound_ms + found[1].cull_ms + found[1].shade_ms,
                found[2].bound_ms + found[2].cull_ms + found[2].shade_ms, found[2].shaded,
                error_of(r->view, reference, reference_count, &p->noisy, &p->wanted),
-               error_of(r->view, reference, reference_count, &p->smooth, &p->wanted));
+               error_of(r->view, reference, reference_count, &p->smooth, &p->wanted),
+               mean_of(reference, reference_count, &p->noisy, &p->wanted));
         fflush(stdout);
     }
 }
@@ -716,8 +729,8 @@ static void show_scene(int which, const options *o) {
     p.composed = create(o->width, o->height);
     p.results = create(2 * o->width, 2 * o->height);
     p.heats = create(SPHEROID_CLOSE * (o->width / 2), ALPHAS * (o->height / 2));
-    printf("\n%s\n\n%26s%9s%9s%9s%9s%9s%9s%9s  %-8s\n", scene_names[which], "VPLs", "false", "in its", "bounds",
-           "culling", "shading", "total", "RMSE", "denoised");
+    printf("\n%s\n\n%26s%9s%9s%9s%9s%9s%9s%9s  %-8s %s\n", scene_names[which], "VPLs", "false", "in its", "bounds",
+           "culling", "shading", "total", "RMSE", "denoised", "mean");
     printf("alpha  volume    /px       /px   volume       ms       ms       ms       ms\n");
     for (i = 0; i < ALPHAS; i++) {
         const scene world = which == 0 ? scene_ring(alphas[i]) : scene_colonnade(alphas[i]);
@@ -730,7 +743,7 @@ static void show_scene(int which, const options *o) {
         r.world = &world;
         r.view = &view;
         r.frame = view_of(&world);
-        r.tiles = make_tiles(&view, &r.frame, &r.tile_count);
+        r.tiles = make_tiles(&view, &r.frame, o->tile, &r.tile_count);
         make_lights(&rsm, o->seed, r.lists);
         for (kind = 0; kind < KINDS; kind++) {
             r.volumes[kind] = allocate_volumes(r.lists[kind].first[SUBSETS]);
@@ -751,7 +764,7 @@ static void show_scene(int which, const options *o) {
                 smooth_error = error_of(&view, reference, reference_count, &p.smooth, &p.wanted);
             }
             print_row(alphas[i], (volume)k, &found, error_of(&view, reference, reference_count, &p.noisy, &p.wanted),
-                      smooth_error);
+                      smooth_error, mean_of(reference, reference_count, &p.noisy, &p.wanted));
             if (k < SPHEROID_CLOSE) {
                 draw_heat(r.tiles, r.tile_count, &p.heat);
                 paste_half(&p.heats, &p.heat, k, i);
@@ -790,18 +803,21 @@ static void show_scene(int which, const options *o) {
 }
 
 int main(int argc, char **argv) {
-    options o = {640, 480, {0}, 0, 0, 0, "build/light_culling", 0.1f};
+    options o = {640, 480, {0}, 0, 0, 0, "build/light_culling", 0.1f, 16};
     int which;
     options_read(
         &o, argc, argv,
         "Renders glossy caustics with 65,536 virtual point lights that are culled at random without bias,\n"
         "and prints how many lights each bounding volume lets through, in vain or not, and how long it takes.");
     check_paths(o.out);
-    printf("%dx%d pixels, delta %g; times are the least of %d runs; the reference is the sum over all VPLs at every\n"
-           "%dth pixel of every %dth row. False are glossy VPLs that are shaded at a pixel where they are not "
-           "accepted; in\n"
-           "its volume, those that would be if tiles were single pixels. Closer: with further tests of tiles.\n",
-           o.width, o.height, (double)o.delta, REPEATS, REFERENCE_STEP, REFERENCE_STEP);
+    printf(
+        "%dx%d pixels, tiles of %dx%d, delta %g; times are the least of %d runs. The reference is the sum over all\n",
+        o.width, o.height, o.tile, o.tile, (double)o.delta, REPEATS);
+    printf(
+        "VPLs at every %dth pixel of every %dth row; mean: of the light there, over the reference's. False: glossy\n",
+        REFERENCE_STEP, REFERENCE_STEP);
+    printf("VPLs that are shaded where they are not accepted; in its volume: those that were if tiles were single\n"
+           "pixels. Closer: with further tests of tiles.\n");
     for (which = 0; which < SCENES; which++) show_scene(which, &o);
     return 0;
 }

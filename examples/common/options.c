@@ -21,6 +21,9 @@ static void usage(FILE *to, const options *o, const char *program, const char *a
     if (o->delta > 0)
         fprintf(to, "  --delta X        radiance below which lights are left out at random, 1e-9 to 1e9 (default %g)\n",
                 (double)o->delta);
+    if (o->tile)
+        fprintf(to, "  --tile N         edge of a tile, in pixels of an interleaved image, 2 to 16 (default %d)\n",
+                o->tile);
     fprintf(to, "  --seed N         shifts every sample, 0 to 4294967295 (default %u)\n", o->seed);
     fprintf(to, "  --out PREFIX     beginning of the images' names (default %s)\n", o->out);
     fprintf(to, "  --help           prints this\n");
@@ -69,6 +72,7 @@ static int known(const options *defaults, const char *name) {
     if (!strcmp(name, "--lights")) return defaults->light_counts > 0;
     if (!strcmp(name, "--samples")) return defaults->samples > 0;
     if (!strcmp(name, "--delta")) return defaults->delta > 0;
+    if (!strcmp(name, "--tile")) return defaults->tile > 0;
     return !strcmp(name, "--size") || !strcmp(name, "--seed") || !strcmp(name, "--out");
 }
 
@@ -97,6 +101,9 @@ void options_read(options *o, int argc, char **argv, const char *about) {
             } else if (!strcmp(name, "--seed")) {
                 right = number(value, 0, UINT_MAX, &n, &rest) && !*rest;
                 o->seed = (unsigned)n;
+            } else if (!strcmp(name, "--tile")) {
+                right = number(value, 2, 16, &n, &rest) && !*rest;
+                o->tile = (int)n;
             } else if (!strcmp(name, "--delta")) {
                 right = read_delta(o, value);
             } else {

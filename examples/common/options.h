@@ -11,9 +11,10 @@ typedef struct {
     int samples;
     const char *out;
     float delta; /* radiance below which lights are left out at random */
+    int tile;    /* edge of the squares of pixels for which lights are culled */
 } options;
 
-/* A program that gives no default for the number of lights, the samples or delta has no such option.
+/* A program that gives no default for the number of lights, the samples, delta or the tile has no such option.
 
    Reads the arguments into o, which holds the defaults. --help: prints usage to stdout and exits with 0; anything
    wrong: says what on stderr, with the usage, and exits with 2. `about` is the first line of the help. */
