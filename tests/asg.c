@@ -520,7 +520,7 @@ static void sg_integrals_sharp_limit(void) {
         wanted *= 2 * REFERENCE_PI / (double)g.sharpness;
         if (wanted < 1e-36) continue;
         test_within(&bound, (double)asg_sg_integral(a, g), wanted, wanted * unit, inputs, 4);
-        test_within(&xu, (double)asg_sg_integral_xu(a, g), wanted, wanted * unit, inputs, 4);
+        if (lg <= xu.high) test_within(&xu, (double)asg_sg_integral_xu(a, g), wanted, wanted * unit, inputs, 4);
     }
     test_report(&bound);
     test_report(&xu);
@@ -701,30 +701,6 @@ static double xu_by_eigenvectors(asg_lobe first, asg_lobe second) {
         lowest[i] = v[i][least];
     }
     return REFERENCE_PI * exp(-values[least]) * fmax(dot(lowest, one.z) * dot(lowest, two.z), 0) / sqrt(gap);
-}
-
-/* The exponent solves the saddle equation. */
-static void product_exponent_solves(void) {
-    test_bound bound = test_bound_of("asg.h", "asg_product_integral", "saddle");
-    test_rng rng = {122};
-    int i, k;
-    for (i = 0; i < 20000; i++) {
-        double z[3], other[3], inputs[5], values[3], v[3][3], sum = 0, smallest = test_log_uniform(&rng, bound.low, 10);
-        asg_lobe a, b;
-        float exponent;
-        for (k = 0; k < 4; k++) inputs[k] = fmin(smallest * test_log_uniform(&rng, 1, 1e4), bound.high);
-        inputs[4] = 3 * test_uniform(&rng);
-        test_direction(&rng, z);
-        a = lobe_around(z, 7 * test_uniform(&rng), inputs[0], inputs[1]);
-        direction_near(&rng, z, inputs[4], other);
-        b = lobe_around(other, 7 * test_uniform(&rng), inputs[2], inputs[3]);
-        (void)lobe_asg_product(a, b, &exponent);
-        eigensystem(a, b, values, v);
-        if ((double)exponent < -10) continue;
-        for (k = 0; k < 3; k++) sum += 0.5 / (values[k] + (double)exponent);
-        test_within(&bound, sum, 1, 1, inputs, 5);
-    }
-    test_report(&bound);
 }
 
 static void xu_needs_no_eigenvectors(void) {
@@ -1380,7 +1356,6 @@ const test_case asg_tests[] = {
     {"asg_sg_integral_sharp_limit", sg_integrals_sharp_limit},
     {"asg_product_integral", products_match},
     {"asg_product_integral_rounding", products_round},
-    {"asg_product_integral_saddle", product_exponent_solves},
     {"asg_product_integral_xu", xu_needs_no_eigenvectors},
     {"asg_weights", weights_are_weights},
     {"asg_weights_turn_smoothly", weights_turn_smoothly},
