@@ -273,8 +273,8 @@ static double reference_product(asg_lobe first, const asg_lobe *second, const sg
     at = 0.5 * (from + to);
     l.top = profile(&l, at);
     for (width = 1e-7; width < 1; width *= 1.6) {
-        double lower = profile(&l, fmax(at - width, -REFERENCE_PI / 2));
-        double upper = profile(&l, fmin(at + width, REFERENCE_PI / 2));
+        double lower = at - width > -REFERENCE_PI / 2 ? profile(&l, at - width) : -HUGE_VAL;
+        double upper = at + width < REFERENCE_PI / 2 ? profile(&l, at + width) : -HUGE_VAL;
         if (fmax(lower, upper) < l.top - 0.5) break;
     }
     count = graded_mesh(-REFERENCE_PI / 2, REFERENCE_PI / 2, at, width, edges);
