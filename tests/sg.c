@@ -393,6 +393,14 @@ static void test_sample(void) {
         within(&share, exact_share(l, 0.5 * chord * chord), u, TEST_EPSILON * (1 + sqrt(l)));
         within(&size, length(w), 1, 1);
     }
+    for (i = 0; i < 20000; i++) { /* u = 1 is the far end, where rounding must not pass it */
+        lobe_vec3 w;
+        begin();
+        g = lobe_of(random_axis(), log_uniform(1e-8, 1e2), 0);
+        w = sg_sample(g, 1, (float)uniform(0, 1));
+        that(finite_vector(w), "the last sample is finite");
+        within(&size, length(wide(w)), length(wide(g.axis)), 1);
+    }
     g = lobe_of(lobe_vector(0, 0, -1), 1e30, 0);
     begin();
     that(sg_sample(g, 1, 0.3f).z < -0.999999f && sg_sample(g, 0, 0).z < -0.999999f,
@@ -1130,6 +1138,9 @@ static void test_vsl(void) {
     begin();
     that(vsl_lobe(lobe_vector(1, 0, 0), 0, lobe_vector(0, 0, 0)).sharpness >= 0.99e18f, "a point is infinitely sharp");
     that(vsl_lobe(lobe_vector(1, 0, 0), 1, lobe_vector(1, 0, 0)).sharpness == 2, "the center sees half the sphere");
+    that(vsl_lobe(lobe_vector(1, 0, 0), 1, lobe_vector(1, 0, 0)).axis.z == 1 &&
+             vsl_lobe(lobe_vector(1, 0, 0), 1, lobe_vector(1, 0, 0)).axis.x == 0,
+         "and looks along z");
     test_report(&conditioned_bound);
     test_report(&rel);
     test_report(&solid_angle);
