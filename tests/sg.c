@@ -4,6 +4,7 @@
 */
 #include "../sg.h"
 #include "exact.h"
+#include "tokuyoshi.h"
 #include "test.h"
 #include <float.h>
 
@@ -242,7 +243,7 @@ static void test_vectors(void) {
         vec v = random_direction();
         double size;
         begin();
-        size = log_uniform(2e-18, 5e17);
+        size = log_uniform(1e-15, 5e17);
         within(&bound, distance(wide(lobe_normalize_or(narrow(combine(size, v, 0, v)), lobe_vector(0, 0, 0))), v), 0,
                1);
     }
@@ -610,43 +611,93 @@ static void test_convolve(void) {
     test_report(&amplitude);
 }
 
-static void check_cosine(test_bound *bound, double l, double angle) {
+/* Draws axis and normal at an angle; the error of the accurate form and of the short one. */
+static void check_cosine(test_bound *bound, test_bound *approx, double l, double angle) {
     lobe_vec3 normal, axis;
-    double exact;
+    double exact, scale;
     sg_lobe g;
     float got;
     normal = random_axis();
     axis = nearly_unit(turned(unit(wide(normal)), angle));
     exact = exact_cosine(l, dot(unit(wide(axis)), unit(wide(normal))));
     g = lobe_of(axis, l, uniform(-1, 1));
+    scale = exp(-(double)g.log_amplitude) / exact_integral(l);
     got = sg_cosine_integral(g, normal);
-    within(bound, (double)got / exact_integral(l) * exp(-(double)g.log_amplitude), exact, 1);
+    within(bound, (double)got * scale, exact, 1);
     that(got >= 0 && (got > 0 || exact * exact_integral(l) < 1e-25), "a cosine integral is positive");
+    got = sg_cosine_integral_approx(g, normal);
+    within(approx, (double)got * scale, exact, 1);
+    that(got >= 0, "a cosine integral is not negative");
+}
+
+static double horizon_angle(double l) { /* where the lobe crosses the horizon */
+    return fmin(PI, fmax(0, PI / 2 + uniform(-4, 4) / sqrt(1 + l)));
 }
 
 static void test_cosine_integral(void) {
     test_bound bound = test_bound_of("sg.h", "sg_cosine_integral", "abs");
+    test_bound wide_lobes = test_bound_of("sg.h", "sg_cosine_integral", "wide");
+    test_bound sharp = test_bound_of("sg.h", "sg_cosine_integral", "sharp");
+    test_bound approx = test_bound_of("sg.h", "sg_cosine_integral_approx", "abs");
     int i;
     for (i = 0; i < 20000; i++) {
-        double l, flank;
+        double l;
         begin();
         l = log_uniform(bound.low, bound.high);
-        flank = PI / 2 + uniform(-4, 4) / sqrt(1 + l); /* where the lobe crosses the horizon */
-        check_cosine(&bound, l, i % 2 ? fmin(PI, fmax(0, flank)) : uniform(0, PI));
+        check_cosine(&bound, &approx, l, i % 2 ? horizon_angle(l) : uniform(0, PI));
+        begin();
+        l = log_uniform(wide_lobes.low, wide_lobes.high);
+        check_cosine(&wide_lobes, &approx, l, uniform(0, PI));
+        begin();
+        l = log_uniform(sharp.low, sharp.high);
+        check_cosine(&sharp, &approx, l, i % 2 ? horizon_angle(l) : uniform(0, PI));
     }
     for (i = 0; i <= 200; i++) {
         double angle;
         begin();
         angle = record(PI * i / 200);
-        check_cosine(&bound, 0, angle);
-        check_cosine(&bound, 1e-30, angle);
-        check_cosine(&bound, 1e10, angle);
+        check_cosine(&wide_lobes, &approx, 0, angle);
+        check_cosine(&wide_lobes, &approx, 1e-30, angle);
+        check_cosine(&sharp, &approx, 1e10, angle);
     }
     for (i = 0; i < 20000; i++) { /* beyond the stated range */
         begin();
-        check_cosine(&bound, i % 2 ? log_uniform(1e-12, 1e-3) : log_uniform(1e6, 1e30), uniform(0, PI));
+        check_cosine(i % 2 ? &wide_lobes : &sharp, &approx, i % 2 ? log_uniform(1e-12, 1e-3) : log_uniform(1e6, 1e30),
+                     uniform(0, PI));
     }
     test_report(&bound);
+    test_report(&wide_lobes);
+    test_report(&sharp);
+    test_report(&approx);
+}
+
+/* At each sharpness the largest errors over all angles, in floats: ours, and that of Tokuyoshi et al. 2024 */
+static void test_cosine_against_tokuyoshi(void) {
+    test_bound rel = test_bound_of("sg.h", "sg_cosine_integral", "rel");
+    enum { SHARPNESSES = 100, ANGLES = 160 };
+    int i, k;
+    for (i = 0; i <= SHARPNESSES; i++) {
+        double l = (double)(float)(rel.low * pow(rel.high / rel.low, (double)i / SHARPNESSES)), ours = 0, theirs = 0;
+        for (k = 0; k <= ANGLES; k++) {
+            double flank = (k - ANGLES / 4) * 8.0 / ANGLES / sqrt(1 + l), all = (k - ANGLES / 2) / (ANGLES / 4.0) - 1;
+            float c = (float)(k <= ANGLES / 2 ? fmax(-1, fmin(1, flank)) : all), got;
+            double exact = exact_cosine(l, (double)c);
+            begin();
+            record(l);
+            record((double)c);
+            got = lobe_cosine_mean((float)l, c);
+            ours = fmax(ours, fabs((double)got - exact));
+            theirs = fmax(theirs, fabs((double)tokuyoshi_2024((float)l, c) / exact_integral(l) - exact));
+            if (exact > 1e-3) within(&rel, (double)got, exact, exact);
+        }
+        record(ours);
+        record(theirs);
+#ifdef __FAST_MATH__
+        theirs += 0x1p-24; /* another order of additions */
+#endif
+        that(ours <= theirs, "as accurate as Tokuyoshi et al. 2024");
+    }
+    test_report(&rel);
 }
 
 static void test_toksvig(void) {
@@ -1343,6 +1394,8 @@ static void check_finite_functions(void) {
     that(finite_lobe(sg_convolve(a, wild(-140, 99))), "finite sg_convolve");
     x = sg_cosine_integral(a, wi);
     that(test_is_finite(x) && x >= 0, "finite sg_cosine_integral");
+    x = sg_cosine_integral_approx(a, wi);
+    that(test_is_finite(x) && x >= 0, "finite sg_cosine_integral_approx");
     that(test_is_finite(sg_mean_length(a.sharpness)), "finite sg_mean_length");
     that(test_is_finite(sg_sharpness_from_mean_length(wild(-140, -1))), "finite sg_sharpness_from_mean_length");
     that(finite_lobe(sg_diffuse_lobe(axis)) && finite_lobe(sg_phong_lobe(axis, wi, a.sharpness)) &&
@@ -1404,6 +1457,7 @@ const test_case sg_tests[] = {{"sg_exp2", test_exp2},
                               {"sg_aligned", test_aligned},
                               {"sg_convolve", test_convolve},
                               {"sg_cosine_integral", test_cosine_integral},
+                              {"sg_cosine_integral_tokuyoshi", test_cosine_against_tokuyoshi},
                               {"sg_toksvig", test_toksvig},
                               {"sg_diffuse_lobe", test_diffuse_lobe},
                               {"sg_reflection_lobe", test_reflection_lobe},
