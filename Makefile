@@ -22,12 +22,16 @@ TESTS = $(wildcard tests/*.c)
 run: $(BUILD)/vsgl
 	$(BUILD)/vsgl $(ARGS)
 
-test: $(BUILD)/tests headers readme
+test: $(BUILD)/tests headers readme vectors
 	$(BUILD)/tests $(ARGS)
+
+bench: $(BUILD)/bench
+	$(BUILD)/bench $(ARGS)
 
 help:
 	@echo 'make           builds and runs the main example: one-bounce glossy indirect light (ARGS="--help" for more)'
-	@echo 'make test      compiles each header alone and the snippet of the README, then runs the unit tests'
+	@echo 'make test      compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
+	@echo 'make bench     speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
 	@echo 'make clean     deletes $(BUILD)/'
 	@echo 'make help      prints this'
 	@echo
@@ -42,6 +46,22 @@ $(BUILD)/vsgl: examples/vsgl.c $(COMMON) $(wildcard examples/common/*.h) $(HEADE
 $(BUILD)/tests: $(TESTS) $(wildcard tests/*.h) $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(TESTS) -o $@ -lm
 
+# The loops are compiled twice: as vector and as scalar code, by nothing but -O3 for this machine, in the C that
+# compilers default to, which contracts a * b + c.
+BENCH_COMPILE = $(CC) -std=gnu99 $(WARN) -O3 $(NATIVE)
+BENCH_LOOPS = $(wildcard tests/bench/*_loops.c)
+BENCH_SOURCES = $(filter-out $(BENCH_LOOPS),$(wildcard tests/bench/*.c)) tests/random.c
+BENCH_OBJECTS = $(BENCH_LOOPS:tests/bench/%.c=$(BUILD)/%_scalar.o) $(BENCH_LOOPS:tests/bench/%.c=$(BUILD)/%_vector.o)
+
+$(BUILD)/bench: $(BENCH_SOURCES) $(BENCH_OBJECTS)
+	$(COMPILE) $^ -o $@ -lm
+
+$(BUILD)/%_vector.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEADERS) $(BUILD)/flags
+	$(BENCH_COMPILE) -c $< -o $@
+
+$(BUILD)/%_scalar.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEADERS) $(BUILD)/flags
+	$(BENCH_COMPILE) -DBENCH_SCALAR -fno-tree-vectorize -fno-tree-slp-vectorize -c $< -o $@
+
 # Each header alone, as C99 and, where the compiler knows it, as C++17.
 headers: $(BUILD)/flags
 	@for header in $(HEADERS); do \
@@ -54,6 +74,9 @@ headers: $(BUILD)/flags
 	    else echo "skipped $$header as C++17: $(CC) has no C++ here"; fi; \
 	done
 
+vectors: $(BUILD)/flags
+	@sh tests/compile/vectors.sh $(CC) $(BUILD)
+
 # The README's first block of C, as printed.
 readme: $(BUILD)/flags
 	@awk '/^```/ { if (inside) exit; inside = /^```c$$/; next } inside' README.md > $(BUILD)/readme.c
@@ -65,4 +88,4 @@ $(BUILD)/flags: force
 	@mkdir -p $(BUILD)
 	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
 
-.PHONY: run test help clean headers readme force
+.PHONY: run test bench help clean headers vectors readme force

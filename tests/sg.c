@@ -3,7 +3,8 @@
  to quadrature. Everything drawn is recorded, so that a failure prints its input.
 */
 #include "../sg.h"
-#include "reference.h"
+#include "exact.h"
+#include "tokuyoshi.h"
 #include "test.h"
 #include <float.h>
 
@@ -62,121 +63,6 @@ static int finite_lobe(sg_lobe g) {
     return finite_vector(g.axis) && test_is_finite(g.sharpness) && test_is_finite(g.log_amplitude);
 }
 
-/* ---- references ---- */
-
-typedef struct {
-    double x, y, z;
-} vec;
-
-static vec wide(lobe_vec3 v) {
-    vec w;
-    w.x = (double)v.x;
-    w.y = (double)v.y;
-    w.z = (double)v.z;
-    return w;
-}
-
-static lobe_vec3 narrow(vec v) {
-    return lobe_vector((float)v.x, (float)v.y, (float)v.z);
-}
-
-static double dot(vec a, vec b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static double length(vec v) {
-    return sqrt(dot(v, v));
-}
-
-static vec combine(double s, vec a, double t, vec b) {
-    vec v;
-    v.x = s * a.x + t * b.x;
-    v.y = s * a.y + t * b.y;
-    v.z = s * a.z + t * b.z;
-    return v;
-}
-
-static vec unit(vec v) {
-    return combine(1 / length(v), v, 0, v);
-}
-
-static double distance(vec a, vec b) {
-    return length(combine(1, a, -1, b));
-}
-
-static double exact_phi(double x) {
-    return x < 1e-9 ? 1 - x / 2 : -expm1(-x) / x;
-}
-
-static double exact_integral(double sharpness) {
-    return 4 * PI * exact_phi(2 * sharpness);
-}
-
-static double exact_log_eval(sg_lobe g, vec dir) { /* without the amplitude */
-    double chord = distance(unit(wide(g.axis)), dir);
-    return -0.5 * (double)g.sharpness * chord * chord;
-}
-
-typedef struct {
-    double sum;       /* of the factors' sharpnesses */
-    double sharpness; /* of the product */
-    double log_loss;  /* what the misalignment costs */
-    vec axis;
-} exact_product;
-
-static exact_product multiply(double la, vec a, double lb, vec b) {
-    exact_product p;
-    double chord = distance(a, b);
-    vec m = combine(la, a, lb, b);
-    p.sum = la + lb;
-    p.sharpness = length(m);
-    p.log_loss = p.sum > 0 ? -la * chord * chord * (lb / (p.sharpness + p.sum)) : 0;
-    p.axis = p.sharpness > 0 ? unit(m) : a;
-    return p;
-}
-
-static exact_product multiply_lobes(sg_lobe a, sg_lobe b) {
-    return multiply((double)a.sharpness, unit(wide(a.axis)), (double)b.sharpness, unit(wide(b.axis)));
-}
-
-/* The unit of a value aligned * exp(log_loss) whose exponent has terms of the given size. Results below the
-   smallest normal float may be flushed. */
-static double conditioned(double aligned, double log_loss, double size) {
-    return aligned * (exp(log_loss) * (1 + size) * TEST_EPSILON + (double)FLT_MIN) + (double)FLT_MIN;
-}
-
-/* Integral over the circle at angle theta around an axis whose cosine with the normal is c, of max(cos, 0). */
-static double clamped_cosine_ring(double theta, double c) {
-    double a = cos(theta) * c, b = sin(theta) * sqrt(1 - c * c), half;
-    if (a >= b) return 2 * PI * a;
-    if (a <= -b) return 0;
-    half = acos(-a / b);
-    return 2 * (a * half + b * sin(half));
-}
-
-/* Integral of a unit SG times the clamped cosine, over the SG's integral; panels end where the ring has kinks. */
-static double exact_cosine(double sharpness, double cosine) {
-    static reference_gauss rule;
-    double c = fmin(1, fmax(-1, cosine)), kink = fabs(asin(c)), ends[4] = {0, 0, 0, PI}, whole = 0;
-    double last = 2 * asin(sqrt(fmin(1, 25 / (sharpness + 1e-9)))), width = 1.5 / sqrt(1 + sharpness);
-    int segment, i;
-    if (rule.weight[0] == 0) rule = reference_gauss_rule();
-    ends[1] = kink;
-    ends[2] = PI - kink;
-    for (segment = 0; segment < 3; segment++) {
-        double from = ends[segment], end = fmin(ends[segment + 1], last), to;
-        for (; from < end; from = to) {
-            to = fmin(from + width, end);
-            for (i = 0; i < REFERENCE_GAUSS_COUNT; i++) {
-                double theta = from + (to - from) * 0.5 * (1 + rule.node[i]), s = sin(theta / 2);
-                whole += 0.5 * (to - from) * rule.weight[i] * exp(-2 * sharpness * s * s) * sin(theta) *
-                         clamped_cosine_ring(theta, c);
-            }
-        }
-    }
-    return whole / exact_integral(sharpness);
-}
-
 /* ---- input ---- */
 
 static void begin(void) {
@@ -205,9 +91,11 @@ static vec random_direction(void) {
     return v;
 }
 
-/* A float direction whose length is within 1e-7 of 1 before it is rounded. */
+/* A float direction near a given one, of a length anywhere within 1e-7 of 1. */
 static lobe_vec3 nearly_unit(vec v) {
-    lobe_vec3 w = narrow(combine((1 + 1e-7 * (2 * test_uniform(&test_random) - 1)) / length(v), v, 0, v));
+    lobe_vec3 w;
+    do w = narrow(combine((1 + 1e-7 * (2 * test_uniform(&test_random) - 1)) / length(v), v, 0, v));
+    while (fabs(length(wide(w)) - 1) > 1e-7);
     record_vector(w);
     return w;
 }
@@ -306,6 +194,48 @@ static void test_phi(void) {
     test_report(&bound);
 }
 
+static void test_log(void) {
+    test_bound bound = test_bound_of("sg.h", "lobe_log", "rel");
+    test_bound slope = test_bound_of("sg.h", "lobe_log1m_slope", "rel");
+    unsigned bits;
+    int i;
+    for (bits = bits_of(FLT_MIN); bits <= bits_of(FLT_MAX); bits += 10007) {
+        double x = (double)of_bits(bits), wanted = log(x);
+        begin();
+        record(x);
+        within(&bound, (double)lobe_log(of_bits(bits)), wanted, fabs(wanted));
+    }
+    for (i = 0; i < 100000; i++) {
+        double x;
+        begin();
+        x = record((double)(float)(1 + (i % 2 ? 1 : -1) * test_log_uniform(&test_random, 1e-7, 0.5)));
+        within(&bound, (double)lobe_log((float)x), log(x), fabs(log(x)));
+        x = record((double)(float)(i % 2 ? test_log_uniform(&test_random, 1e-29, 1)
+                                         : 1 - test_log_uniform(&test_random, 6e-8, 1)));
+        x = fmin(x, 1 - 0x1p-24);
+        within(&slope, (double)lobe_log1m_slope((float)x), -log1p(-x) / x, -log1p(-x) / x);
+    }
+    begin();
+    that(lobe_log(1) == 0 && lobe_log1m_slope(0) == 1, "ln 1 is 0 and its slope there 1");
+    that(lobe_log(0) == lobe_log(FLT_MIN) && test_is_finite(lobe_log1m_slope(1)), "logarithms of 0 are finite");
+    test_report(&bound);
+    test_report(&slope);
+}
+
+static void test_turn(void) {
+    test_bound bound = test_bound_of("sg.h", "lobe_turn", "abs");
+    int i;
+    for (i = 0; i <= 200000; i++) {
+        float v = i <= 64 ? (float)i / 64 : (float)test_uniform(&test_random), c, s;
+        begin();
+        record((double)v);
+        lobe_turn(v, &c, &s);
+        within(&bound, (double)c, cos(2 * PI * (double)v), 1);
+        within(&bound, (double)s, sin(2 * PI * (double)v), 1);
+    }
+    test_report(&bound);
+}
+
 static void test_vectors(void) {
     test_bound bound = stated("lobe_normalize_or rel", 3e-7);
     int i;
@@ -313,7 +243,7 @@ static void test_vectors(void) {
         vec v = random_direction();
         double size;
         begin();
-        size = log_uniform(1e-29, 1e37);
+        size = log_uniform(1e-15, 5e17);
         within(&bound, distance(wide(lobe_normalize_or(narrow(combine(size, v, 0, v)), lobe_vector(0, 0, 0))), v), 0,
                1);
     }
@@ -437,6 +367,103 @@ static void test_normalize(void) {
         n = sg_normalize(g);
         within(&bound, exp((double)n.log_amplitude) * exact_integral((double)g.sharpness), 1, 1);
         that(!memcmp(&n.axis, &g.axis, sizeof n.axis) && n.sharpness == g.sharpness, "normalising keeps the shape");
+    }
+    test_report(&bound);
+}
+
+/* What share of an SG lies within an angle of t = 1 - cos */
+static double exact_share(double sharpness, double t) {
+    return sharpness < 1e-12 ? t / 2 : expm1(-sharpness * t) / expm1(-2 * sharpness);
+}
+
+static void test_sample(void) {
+    test_bound share = test_bound_of("sg.h", "sg_sample", "share");
+    test_bound size = test_bound_of("sg.h", "sg_sample", "length");
+    sg_lobe g = lobe_of(lobe_vector(0, 0, -1), 1e30, 0);
+    int i;
+    for (i = 0; i < 100000; i++) {
+        vec axis = random_direction(), w;
+        double l, u, chord;
+        begin();
+        l = i % 8 ? log_uniform(share.low, share.high) : record(0);
+        u = record((double)(float)(i % 3 ? test_uniform(&test_random) : test_log_uniform(&test_random, 1e-9, 1)));
+        if (i % 3 == 2) u = record((double)(1 - (float)u));
+        g = lobe_of(narrow(axis), l, uniform(-100, 100));
+        w = wide(sg_sample(g, (float)u, (float)uniform(0, 1)));
+        chord = distance(unit(w), unit(wide(g.axis)));
+        within(&share, exact_share(l, 0.5 * chord * chord), u, TEST_EPSILON * (1 + sqrt(l)));
+        within(&size, length(w), 1, 1);
+    }
+    for (i = 0; i < 20000; i++) { /* u = 1 is the far end, where rounding must not pass it */
+        lobe_vec3 w;
+        begin();
+        g = lobe_of(random_axis(), log_uniform(1e-8, 1e2), 0);
+        w = sg_sample(g, 1, (float)uniform(0, 1));
+        that(finite_vector(w), "the last sample is finite");
+        within(&size, length(wide(w)), length(wide(g.axis)), 1);
+    }
+    g = lobe_of(lobe_vector(0, 0, -1), 1e30, 0);
+    begin();
+    that(sg_sample(g, 1, 0.3f).z < -0.999999f && sg_sample(g, 0, 0).z < -0.999999f,
+         "an infinitely sharp SG is its axis");
+    g.sharpness = 0;
+    that(sg_sample(g, 0, 0.7f).z < -0.999999f && sg_sample(g, 1, 0.7f).z > 0.999999f,
+         "u = 0 is the axis, u = 1 opposite");
+    test_report(&share);
+    test_report(&size);
+}
+
+/* Independent draws fall as often as they should into 16 x 16 cells of equal share around the axis, and their mean
+   direction has the length that it should have. */
+static void test_sample_distribution(void) {
+    enum { SIDE = 16, DRAWS = SIDE * SIDE * 200 };
+    static const double sharpness[] = {0, 1e-8, 0.1, 1, 10, 1e3, 1e6, 1e9};
+    int i, k;
+    for (k = 0; k < COUNT(sharpness); k++) {
+        int cells[SIDE * SIDE] = {0}, cell;
+        double l = sharpness[k], d[3], a[3], b[3], chi = 0, sum = 0, squares = 0, mean, deviation;
+        lobe_vec3 axis;
+        begin();
+        record(l);
+        axis = random_axis();
+        d[0] = unit(wide(axis)).x;
+        d[1] = unit(wide(axis)).y;
+        d[2] = unit(wide(axis)).z;
+        reference_frame(d, a, b);
+        for (i = 0; i < DRAWS; i++) {
+            float u = (float)test_uniform(&test_random), v = (float)test_uniform(&test_random);
+            vec w = unit(wide(sg_sample(lobe_of(axis, l, 3), u, v)));
+            double chord = distance(w, unit(wide(axis))), t = 0.5 * chord * chord;
+            double turn = atan2(w.x * a[0] + w.y * a[1] + w.z * a[2], w.x * b[0] + w.y * b[1] + w.z * b[2]);
+            int row = (int)(SIDE * exact_share(l, t)), column = (int)(SIDE * (turn / (2 * PI) + 0.5));
+            cells[(row < SIDE ? row : SIDE - 1) * SIDE + (column < SIDE ? column : SIDE - 1)]++;
+            sum += t;
+            squares += t * t;
+        }
+        for (cell = 0; cell < SIDE * SIDE; cell++) {
+            double expected = (double)DRAWS / (SIDE * SIDE), excess = cells[cell] - expected;
+            chi += excess * excess / expected;
+        }
+        record(chi);
+        that(chi < 367 && chi > 161, "chi-square of 255 degrees of freedom, five deviations up, 1e-6 down");
+        mean = sum / DRAWS;
+        deviation = sqrt((squares / DRAWS - mean * mean) / DRAWS);
+        record(mean);
+        that(fabs(1 - mean - (l < 1e-3 ? l / 3 : 1 / tanh(l) - 1 / l)) < 4 * deviation, "mean is coth l - 1 / l");
+    }
+}
+
+static void test_pdf(void) {
+    test_bound bound = test_bound_of("sg.h", "sg_pdf", "conditioned");
+    int i;
+    for (i = 0; i < 100000; i++) {
+        sg_lobe g, dir;
+        double ln, peak;
+        draw_pair(bound.low, bound.high, &g, &dir);
+        g.log_amplitude = (float)uniform(-20, 20);
+        ln = exact_log_eval(g, unit(wide(dir.axis)));
+        peak = 1 / exact_integral((double)g.sharpness);
+        within(&bound, (double)sg_pdf(g, dir.axis), peak * exp(ln), conditioned(peak, ln, -ln));
     }
     test_report(&bound);
 }
@@ -584,43 +611,93 @@ static void test_convolve(void) {
     test_report(&amplitude);
 }
 
-static void check_cosine(test_bound *bound, double l, double angle) {
+/* Draws axis and normal at an angle; the error of the accurate form and of the short one. */
+static void check_cosine(test_bound *bound, test_bound *approx, double l, double angle) {
     lobe_vec3 normal, axis;
-    double exact;
+    double exact, scale;
     sg_lobe g;
     float got;
     normal = random_axis();
     axis = nearly_unit(turned(unit(wide(normal)), angle));
     exact = exact_cosine(l, dot(unit(wide(axis)), unit(wide(normal))));
     g = lobe_of(axis, l, uniform(-1, 1));
+    scale = exp(-(double)g.log_amplitude) / exact_integral(l);
     got = sg_cosine_integral(g, normal);
-    within(bound, (double)got / exact_integral(l) * exp(-(double)g.log_amplitude), exact, 1);
+    within(bound, (double)got * scale, exact, 1);
     that(got >= 0 && (got > 0 || exact * exact_integral(l) < 1e-25), "a cosine integral is positive");
+    got = sg_cosine_integral_approx(g, normal);
+    within(approx, (double)got * scale, exact, 1);
+    that(got >= 0, "a cosine integral is not negative");
+}
+
+static double horizon_angle(double l) { /* where the lobe crosses the horizon */
+    return fmin(PI, fmax(0, PI / 2 + uniform(-4, 4) / sqrt(1 + l)));
 }
 
 static void test_cosine_integral(void) {
     test_bound bound = test_bound_of("sg.h", "sg_cosine_integral", "abs");
+    test_bound wide_lobes = test_bound_of("sg.h", "sg_cosine_integral", "wide");
+    test_bound sharp = test_bound_of("sg.h", "sg_cosine_integral", "sharp");
+    test_bound approx = test_bound_of("sg.h", "sg_cosine_integral_approx", "abs");
     int i;
     for (i = 0; i < 20000; i++) {
-        double l, flank;
+        double l;
         begin();
         l = log_uniform(bound.low, bound.high);
-        flank = PI / 2 + uniform(-4, 4) / sqrt(1 + l); /* where the lobe crosses the horizon */
-        check_cosine(&bound, l, i % 2 ? fmin(PI, fmax(0, flank)) : uniform(0, PI));
+        check_cosine(&bound, &approx, l, i % 2 ? horizon_angle(l) : uniform(0, PI));
+        begin();
+        l = log_uniform(wide_lobes.low, wide_lobes.high);
+        check_cosine(&wide_lobes, &approx, l, uniform(0, PI));
+        begin();
+        l = log_uniform(sharp.low, sharp.high);
+        check_cosine(&sharp, &approx, l, i % 2 ? horizon_angle(l) : uniform(0, PI));
     }
     for (i = 0; i <= 200; i++) {
         double angle;
         begin();
         angle = record(PI * i / 200);
-        check_cosine(&bound, 0, angle);
-        check_cosine(&bound, 1e-30, angle);
-        check_cosine(&bound, 1e10, angle);
+        check_cosine(&wide_lobes, &approx, 0, angle);
+        check_cosine(&wide_lobes, &approx, 1e-30, angle);
+        check_cosine(&sharp, &approx, 1e10, angle);
     }
     for (i = 0; i < 20000; i++) { /* beyond the stated range */
         begin();
-        check_cosine(&bound, i % 2 ? log_uniform(1e-12, 1e-3) : log_uniform(1e6, 1e30), uniform(0, PI));
+        check_cosine(i % 2 ? &wide_lobes : &sharp, &approx, i % 2 ? log_uniform(1e-12, 1e-3) : log_uniform(1e6, 1e30),
+                     uniform(0, PI));
     }
     test_report(&bound);
+    test_report(&wide_lobes);
+    test_report(&sharp);
+    test_report(&approx);
+}
+
+/* At each sharpness the largest errors over all angles, in floats: ours, and that of Tokuyoshi et al. 2024 */
+static void test_cosine_against_tokuyoshi(void) {
+    test_bound rel = test_bound_of("sg.h", "sg_cosine_integral", "rel");
+    enum { SHARPNESSES = 100, ANGLES = 160 };
+    int i, k;
+    for (i = 0; i <= SHARPNESSES; i++) {
+        double l = (double)(float)(rel.low * pow(rel.high / rel.low, (double)i / SHARPNESSES)), ours = 0, theirs = 0;
+        for (k = 0; k <= ANGLES; k++) {
+            double flank = (k - ANGLES / 4) * 8.0 / ANGLES / sqrt(1 + l), all = (k - ANGLES / 2) / (ANGLES / 4.0) - 1;
+            float c = (float)(k <= ANGLES / 2 ? fmax(-1, fmin(1, flank)) : all), got;
+            double exact = exact_cosine(l, (double)c);
+            begin();
+            record(l);
+            record((double)c);
+            got = lobe_cosine_mean((float)l, c);
+            ours = fmax(ours, fabs((double)got - exact));
+            theirs = fmax(theirs, fabs((double)tokuyoshi_2024((float)l, c) / exact_integral(l) - exact));
+            if (exact > 1e-3) within(&rel, (double)got, exact, exact);
+        }
+        record(ours);
+        record(theirs);
+#ifdef __FAST_MATH__
+        theirs += 0x1p-24; /* another order of additions */
+#endif
+        that(ours <= theirs, "as accurate as Tokuyoshi et al. 2024");
+    }
+    test_report(&rel);
 }
 
 static void test_toksvig(void) {
@@ -910,6 +987,217 @@ static void test_vsgl_without_power(void) {
     }
 }
 
+/* ---- clusters that merge ---- */
+
+static vsgl_cluster cluster_of(vpl p, lobe_vec3 position) {
+    return vsgl_cluster_from_vpl(position, p.normal, p.wi, p.power[0], p.power[1], p.alpha);
+}
+
+static vpl draw_vpl_of(lobe_vec3 normal, double alpha) {
+    vpl p = draw_vpl(1);
+    p.normal = normal;
+    p.wi = nearly_unit(turned(unit(wide(normal)), uniform(0, 1)));
+    p.alpha = (float)alpha;
+    return p;
+}
+
+static void test_cluster_of_one_vpl(void) {
+    test_bound sharpness = test_bound_of("sg.h", "vsgl_cluster_from_vpl", "sharpness");
+    test_bound ulp = test_bound_of("sg.h", "vsgl_from_cluster", "ulp");
+    test_bound point_light = stated("one VPL against the point light", 1e-6 / TEST_EPSILON);
+    int i, k;
+    for (i = 0; i < 100000; i++) {
+        lobe_vec3 position, target, normal;
+        vsgl v;
+        vpl p;
+        begin();
+        position = narrow(combine(log_uniform(1e-3, 1e5), random_direction(), 0, random_direction()));
+        record_vector(position);
+        p = draw_vpl_of(random_axis(), log_uniform(1e-4, 1));
+        if (i % 2) p.wi = nearly_unit(turned(unit(wide(p.normal)), PI / 2 - log_uniform(1e-4, 1))); /* sharper still */
+        v = vsgl_from_cluster(cluster_of(p, position));
+        that(v.variance == 0 && !memcmp(&v.position, &position, sizeof position), "one VPL has no extent");
+        target = narrow(combine(1, wide(position), log_uniform(1e-2, 1e3), unit(random_direction())));
+        normal = random_axis();
+        for (k = 0; k < 2; k++) {
+            sg_lobe lobe = k ? sg_ggx_lobe(p.normal, p.wi, p.alpha) : sg_diffuse_lobe(p.normal);
+            double l = (double)lobe.sharpness, power = exact_mean(p.power[k]), chord, log_value, cosine, aligned, r;
+            vec away = combine(1, wide(target), -1, wide(position));
+            that(!memcmp(&v.emission[k].axis, &lobe.axis, sizeof lobe.axis), "the axis of one VPL");
+            that(v.emission[k].log_amplitude == 0, "the peak is 1");
+            if (l >= sharpness.low && l <= sharpness.high) within(&sharpness, (double)v.emission[k].sharpness, l, l);
+            within(&ulp, exact_mean(v.intensity[k]), power / exact_integral(l), test_ulp(power / exact_integral(l)));
+            /* the point light: exp(-l chord^2 / 2) cos / (pi d^2); where the direction in floats tells its value */
+            r = length(away);
+            chord = distance(combine(1 / r, away, 0, away), unit(wide(lobe.axis)));
+            log_value = -0.5 * l * chord * chord;
+            cosine = -dot(away, unit(wide(normal))) / r;
+            aligned = 1 / (PI * r * r);
+            within(&point_light, (double)vsgl_diffuse(v, k, target, normal), aligned * exp(log_value) * fmax(0, cosine),
+                   conditioned(aligned, log_value, l * chord - log_value));
+        }
+    }
+    test_report(&sharpness);
+    test_report(&ulp);
+    test_report(&point_light);
+}
+
+/* Patches of VPLs anywhere in a scene of 1e4 units, of lobes as sharp as can be, merged as a tree and one by one. */
+static void test_cluster_merge(void) {
+    enum { LEVELS = 12, VPLS = 1 << LEVELS };
+    static vsgl_cluster leaf[VPLS];
+    test_bound variance = test_bound_of("sg.h", "vsgl_cluster_merge", "variance");
+    test_bound mean = test_bound_of("sg.h", "vsgl_cluster_merge", "mean");
+    test_bound sharpness = test_bound_of("sg.h", "vsgl_cluster_merge", "sharpness");
+    test_bound chained = test_bound_of("sg.h", "vsgl_cluster_merge", "chained");
+    int trial, i, k, n;
+    for (trial = 0; trial < 40; trial++) {
+        int chain = trial % 4 == 3; /* each VPL added to the sum of those before it */
+        vec where = random_direction(), facing = random_direction(), centre = {0, 0, 0}, direction[2];
+        double radius, alpha, weight = 0, spread = 0, deficit[2] = {0, 0}, cone;
+        lobe_vec3 first = {0, 0, 0}, mean_of_cluster;
+        vsgl_cluster sum;
+        vsgl v;
+        begin();
+        where = combine(trial % 2 ? 1e4 : 1, where, 0, where);
+        radius = log_uniform(variance.low, variance.high);
+        alpha = log_uniform(1e-4, 1);
+        cone = log_uniform(1e-6, 1);
+        memset(direction, 0, sizeof direction);
+        for (i = 0; i < VPLS; i++) {
+            lobe_vec3 position =
+                narrow(combine(1, where, radius * sqrt(test_uniform(&test_random)), turned(facing, PI / 2)));
+            vpl p;
+            double w;
+            inputs = 3;
+            p = draw_vpl_of(nearly_unit(turned(facing, cone * test_uniform(&test_random))), alpha);
+            if (i == 0) first = position;
+            leaf[i] = cluster_of(p, position);
+            w = exact_mean(p.power[0]) + exact_mean(p.power[1]);
+            weight += w;
+            centre = combine(1, centre, w, combine(1, wide(position), -1, wide(first)));
+            spread += w * dot(combine(1, wide(position), -1, wide(first)), combine(1, wide(position), -1, wide(first)));
+        }
+        centre = combine(1 / weight, centre, 0, centre);
+        spread = spread / weight - dot(centre, centre);
+        /* mean directions: the sum's length, and what it is short of the weights, that by differences of directions */
+        for (k = 0; k < 2; k++) {
+            for (i = 0; i < VPLS; i++) {
+                sg_lobe lobe = leaf[i].direction[k];
+                direction[k] = combine(1, direction[k], (double)lobe.sharpness, unit(wide(lobe.axis)));
+            }
+            for (i = 0; i < VPLS; i++) {
+                sg_lobe lobe = leaf[i].direction[k];
+                double chord = distance(unit(wide(lobe.axis)), unit(direction[k]));
+                deficit[k] += 0.5 * (double)lobe.sharpness * chord * chord - (double)lobe.log_amplitude;
+            }
+        }
+        if (chain) {
+            for (sum = leaf[0], i = 1; i < VPLS; i++) sum = vsgl_cluster_merge(sum, leaf[i]);
+        } else {
+            for (n = VPLS / 2; n; n /= 2)
+                for (i = 0; i < n; i++) leaf[i] = vsgl_cluster_merge(leaf[i], leaf[i + n]);
+            sum = leaf[0];
+        }
+        v = vsgl_from_cluster(sum);
+        that(v.variance >= 0, "a variance is never negative");
+        within(&variance, (double)v.variance, spread, spread);
+        mean_of_cluster = sum.offset;
+        within(&mean,
+               distance(combine(1, wide(mean_of_cluster), 1, combine(1, wide(sum.origin), -1, wide(first))), centre), 0,
+               radius);
+        for (k = 0; k < 2; k++) {
+            double l = length(direction[k]) / deficit[k];
+            within(chain ? &chained : &sharpness, (double)v.emission[k].sharpness, l, l);
+        }
+    }
+    test_report(&variance);
+    test_report(&mean);
+    test_report(&sharpness);
+    test_report(&chained);
+}
+
+static void test_cluster_against_moments(void) {
+    test_bound bound = stated("clusters and moments", 1e-5);
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        vsgl_cluster sum, none;
+        vsgl_moments moments;
+        vsgl a, b;
+        vpl p;
+        begin();
+        p = draw_vpl(10);
+        sum = cluster_of(p, p.offset);
+        moments = moments_of(p);
+        for (k = 0; k < 3; k++) {
+            p = draw_vpl_of(random_axis(), 0.3);
+            sum = vsgl_cluster_merge(sum, cluster_of(p, p.offset));
+            moments = vsgl_moments_add(moments, moments_of(p));
+        }
+        a = vsgl_from_cluster(sum);
+        b = vsgl_from_moments(moments, lobe_vector(0, 0, 0));
+        within(&bound, distance(wide(a.position), wide(b.position)), 0, 10);
+        within(&bound, (double)a.variance, (double)b.variance, 100);
+        for (k = 0; k < 2; k++) {
+            double l = (double)b.emission[k].sharpness;
+            within(&bound, distance(wide(a.emission[k].axis), wide(b.emission[k].axis)), 0, 1 + 1 / l);
+            within(&bound, (double)a.emission[k].sharpness, l, (1 + l) * (1 + l));
+            within(&bound, exact_mean(a.intensity[k]) / exact_mean(b.intensity[k]), 1, 1 + l);
+        }
+        /* nothing merged with it, on either side, leaves a cluster as it is */
+        memset(&none, 0, sizeof none);
+        none.direction[0].axis = none.direction[1].axis = lobe_vector(0, 0, 1);
+        b = vsgl_from_cluster(vsgl_cluster_merge(sum, none));
+        that(!memcmp(&a.position, &b.position, sizeof a.position) && a.variance == b.variance, "a cluster and nothing");
+        b = vsgl_from_cluster(vsgl_cluster_merge(none, sum));
+        that(!memcmp(&a.position, &b.position, sizeof a.position) && a.variance == b.variance, "nothing and a cluster");
+    }
+    test_report(&bound);
+}
+
+static void test_vsl(void) {
+    test_bound conditioned_bound = test_bound_of("sg.h", "vsl_lobe", "conditioned");
+    test_bound rel = test_bound_of("sg.h", "vsl_lobe", "rel");
+    test_bound solid_angle = test_bound_of("sg.h", "vsl_lobe", "solid_angle");
+    test_bound cosine = test_bound_of("sg.h", "vsl_lobe", "cosine");
+    int i;
+    for (i = 0; i < 50000; i++) {
+        lobe_vec3 center, point;
+        double radius, d, s, c, l, cone;
+        sg_lobe g;
+        vec offset;
+        begin();
+        d = log_uniform(1e-3, 1e4);
+        s = i % 4 ? log_uniform(conditioned_bound.low, conditioned_bound.high) : uniform(0.9, 2);
+        radius = (double)(float)(d * s);
+        center = narrow(combine(d, random_direction(), 0, random_direction()));
+        point = lobe_vector(0, 0, 0);
+        record_vector(center);
+        record(radius);
+        offset = wide(center);
+        g = vsl_lobe(center, (float)radius, point);
+        s = fmin(1, radius / length(offset));
+        c = sqrt((1 - s) * (1 + s));
+        l = 2 * (1 + c) / (s * s);
+        within(&rel, (double)g.sharpness, l, l);
+        within(&conditioned_bound, (double)g.sharpness, l, l * TEST_EPSILON * (1 + fmin(1 / fmax(c, 1e-9), 4096)));
+        that(distance(wide(g.axis), unit(offset)) < 3e-7 && g.log_amplitude == 0, "towards the center, of peak 1");
+        cone = 4 * PI / l;
+        within(&solid_angle, 2 * exact_integral((double)g.sharpness), cone, cone);
+        within(&cosine, 1 / tanh(l) - 1 / l, 0.5 * (1 + c), 1);
+    }
+    begin();
+    that(vsl_lobe(lobe_vector(1, 0, 0), 0, lobe_vector(0, 0, 0)).sharpness >= 0.99e18f, "a point is infinitely sharp");
+    that(vsl_lobe(lobe_vector(1, 0, 0), 1, lobe_vector(1, 0, 0)).sharpness == 2, "the center sees half the sphere");
+    that(vsl_lobe(lobe_vector(1, 0, 0), 1, lobe_vector(1, 0, 0)).axis.z == 1 &&
+             vsl_lobe(lobe_vector(1, 0, 0), 1, lobe_vector(1, 0, 0)).axis.x == 0,
+         "and looks along z");
+    test_report(&conditioned_bound);
+    test_report(&rel);
+    test_report(&solid_angle);
+    test_report(&cosine);
+}
+
 /* ---- the light at a point ---- */
 
 typedef struct {
@@ -1000,6 +1288,8 @@ static void test_incoming_lobe(void) {
 
 static void test_vsgl_diffuse(void) {
     test_bound bound = test_bound_of("sg.h", "vsgl_diffuse", "conditioned");
+    test_bound integral = test_bound_of("sg.h", "vsgl_diffuse_integral", "conditioned");
+    test_bound cosine_model = test_bound_of("sg.h", "sg_cosine_integral", "abs");
     int i;
     for (i = 0; i < 200000; i++) {
         lit_point s = draw_lit_point();
@@ -1010,11 +1300,18 @@ static void test_vsgl_diffuse(void) {
         if (is_singular(s)) continue;
         if (in.lobe.sharpness > 0) unit_of_error *= in.lobe.sum / in.lobe.sharpness; /* how uncertain the axis is */
         within(&bound, got, overhead * fmax(0, cosine), unit_of_error);
+        if (i % 8 == 0) {
+            double wanted =
+                overhead * (s.light.variance > 0 ? exact_cosine(in.lobe.sharpness, cosine) : fmax(0, cosine));
+            got = (double)vsgl_diffuse_integral(s.light, s.component, s.point, s.normal);
+            within(&integral, fmax(0, fabs(got - wanted) - cosine_model.limit * overhead), 0, unit_of_error);
+        }
         if (i % 16 == 0 && s.light.variance > 0 && in.lobe.sharpness < 1e10)
             that(got <= 4 * overhead * exact_cosine(in.lobe.sharpness, cosine) + bound.limit * unit_of_error,
                  "a constant cosine is at most 4 times too bright");
     }
     test_report(&bound);
+    test_report(&integral);
 }
 
 static double incoming_radiance(const double w[3], const void *context) {
@@ -1088,12 +1385,17 @@ static void check_finite_functions(void) {
     that(sg_eval(a, axis) < 3000, "sg_eval is below its amplitude");
     that(sg_product_integral(a, b) < 1.2e8f, "sg_product_integral is below its amplitudes");
     that(test_is_finite(sg_integral(x)), "finite sg_integral");
+    that(finite_vector(sg_sample(a, (float)test_uniform(&test_random), (float)test_uniform(&test_random))) &&
+             sg_pdf(a, axis) >= 0 && test_is_finite(sg_pdf(a, axis)),
+         "finite sg_sample and sg_pdf");
     that(finite_lobe(sg_normalize(a)), "finite sg_normalize");
     that(finite_lobe(g) && fabs(length(wide(g.axis)) - 1) < 1e-6, "finite sg_product, unit axis");
     that(test_is_finite(sg_product_integral_approx(a, b)), "finite sg_product_integral_approx");
     that(finite_lobe(sg_convolve(a, wild(-140, 99))), "finite sg_convolve");
     x = sg_cosine_integral(a, wi);
     that(test_is_finite(x) && x >= 0, "finite sg_cosine_integral");
+    x = sg_cosine_integral_approx(a, wi);
+    that(test_is_finite(x) && x >= 0, "finite sg_cosine_integral_approx");
     that(test_is_finite(sg_mean_length(a.sharpness)), "finite sg_mean_length");
     that(test_is_finite(sg_sharpness_from_mean_length(wild(-140, -1))), "finite sg_sharpness_from_mean_length");
     that(finite_lobe(sg_diffuse_lobe(axis)) && finite_lobe(sg_phong_lobe(axis, wi, a.sharpness)) &&
@@ -1103,19 +1405,26 @@ static void check_finite_functions(void) {
 
 static void check_finite_light(void) {
     lobe_vec3 normal = wild_axis(lobe_vector(0, 1, 0)), wi = wild_axis(normal), point = wild_vector(-140, 16);
+    float alpha = wild(-140, 0);
     vsgl_moments m =
         vsgl_moments_from_vpl(wild_vector(-140, 16), normal, wi, wild_colour(), wild_colour(), wild(-140, 0));
     vsgl_moments n =
         vsgl_moments_from_vpl(wild_vector(-140, 16), wi, normal, wild_colour(), wild_colour(), wild(-140, 0));
     vsgl v = vsgl_from_moments(vsgl_moments_scale(vsgl_moments_add(m, n), wild(-20, 0)), wild_vector(-140, 16));
+    vsgl_cluster a = vsgl_cluster_from_vpl(wild_vector(-140, 16), normal, wi, wild_colour(), wild_colour(), alpha);
+    vsgl_cluster b = vsgl_cluster_from_vpl(wild_vector(-140, 16), wi, normal, wild_colour(), wild_colour(), alpha);
     int k;
+    if (pick(2)) v = vsgl_from_cluster(vsgl_cluster_merge(a, b));
     if (pick(4) == 0) point = v.position;
+    that(finite_lobe(vsl_lobe(v.position, wild(-140, 16), point)), "finite vsl_lobe");
     that(finite_vector(v.position) && test_is_finite(v.variance) && v.variance >= 0, "finite vsgl_from_moments");
     for (k = 0; k < 2; k++) {
         float lit = vsgl_diffuse(v, k, point, wi);
         that(finite_vector(v.intensity[k]) && finite_lobe(v.emission[k]), "finite vsgl_from_moments");
         that(finite_lobe(vsgl_incoming_lobe(v, k, point)), "finite vsgl_incoming_lobe");
         that(lit >= 0 && lit < 1e20f, "finite vsgl_diffuse");
+        lit = vsgl_diffuse_integral(v, k, point, wi);
+        that(lit >= 0 && lit < 1e20f, "finite vsgl_diffuse_integral");
     }
 }
 
@@ -1131,11 +1440,16 @@ static void test_finite(void) {
 
 const test_case sg_tests[] = {{"sg_exp2", test_exp2},
                               {"sg_phi", test_phi},
+                              {"sg_log", test_log},
+                              {"sg_turn", test_turn},
                               {"sg_vectors", test_vectors},
                               {"sg_closed_forms", test_closed_forms},
                               {"sg_eval", test_eval},
                               {"sg_integral", test_integral},
                               {"sg_normalize", test_normalize},
+                              {"sg_sample", test_sample},
+                              {"sg_sample_distribution", test_sample_distribution},
+                              {"sg_pdf", test_pdf},
                               {"sg_product", test_product},
                               {"sg_product_values", test_product_values},
                               {"sg_product_integral", test_product_integral},
@@ -1143,6 +1457,7 @@ const test_case sg_tests[] = {{"sg_exp2", test_exp2},
                               {"sg_aligned", test_aligned},
                               {"sg_convolve", test_convolve},
                               {"sg_cosine_integral", test_cosine_integral},
+                              {"sg_cosine_integral_tokuyoshi", test_cosine_against_tokuyoshi},
                               {"sg_toksvig", test_toksvig},
                               {"sg_diffuse_lobe", test_diffuse_lobe},
                               {"sg_reflection_lobe", test_reflection_lobe},
@@ -1150,6 +1465,10 @@ const test_case sg_tests[] = {{"sg_exp2", test_exp2},
                               {"vsgl_of_one_vpl", test_vsgl_of_one_vpl},
                               {"vsgl_of_a_disc", test_vsgl_of_a_disc},
                               {"vsgl_without_power", test_vsgl_without_power},
+                              {"vsgl_cluster_of_one_vpl", test_cluster_of_one_vpl},
+                              {"vsgl_cluster_merge", test_cluster_merge},
+                              {"vsgl_cluster_against_moments", test_cluster_against_moments},
+                              {"vsl_lobe", test_vsl},
                               {"vsgl_incoming_lobe", test_incoming_lobe},
                               {"vsgl_diffuse", test_vsgl_diffuse},
                               {"vsgl_diffuse_model", test_vsgl_diffuse_model},

@@ -1,0 +1,63 @@
+/*
+ bench.h - speed beside error
+
+ A row is one function on one kind of input: ours and what a user would otherwise write, as loops over planar arrays.
+ Each loop is compiled twice, as vector code and as scalar code (the file of loops with BENCH_SCALAR and the
+ compiler's vectorisers off), with the same flags otherwise. All forms of a row run on the same inputs, interleaved;
+ times are medians, errors those of the timed loops against references in double.
+*/
+#ifndef BENCH_H
+#define BENCH_H
+
+#include "../test.h"
+
+enum { BENCH_COUNT = 4096, BENCH_INPUTS = 24, BENCH_OUTPUTS = 8, BENCH_FORMS = 12 };
+
+/* Column by column; what a column holds is the row's own matter. */
+typedef struct {
+    float column[BENCH_INPUTS][BENCH_COUNT];
+} bench_input;
+
+typedef struct {
+    float column[BENCH_OUTPUTS][BENCH_COUNT];
+} bench_output;
+
+typedef void bench_loop(const bench_input *restrict in, bench_output *restrict out);
+
+typedef struct {
+    const char *name;
+    bench_loop *scalar, *vector;
+} bench_form;
+
+typedef struct {
+    const char *function;
+    const char *inputs, *unit;                               /* printed: what is drawn, what errors are measured in */
+    int batches;                                             /* of BENCH_COUNT inputs each, for the errors */
+    void (*draw)(float in[BENCH_INPUTS]);                    /* one input, from test_random */
+    void (*exact)(const float *in, double *wanted);          /* what it gives, BENCH_OUTPUTS numbers at most */
+    double (*error)(const double *wanted, const float *out); /* in the unit */
+    bench_form form[BENCH_FORMS];                            /* ours first; closed by a null name */
+} bench_row;
+
+/* One table per header, closed by a null function. */
+extern const bench_row sg_bench[];
+
+#define BENCH_DECLARE(name) bench_loop name##_scalar, name##_vector
+#define BENCH_FORM(text, name)                                                                                         \
+    { text, name##_scalar, name##_vector }
+
+/* In files of loops: defines the loop whose body sets out for the i-th element of in. */
+#ifdef BENCH_SCALAR
+#define BENCH_NAME(name) name##_scalar
+#else
+#define BENCH_NAME(name) name##_vector
+#endif
+#define BENCH_LOOP(name, ...)                                                                                          \
+    void BENCH_NAME(name)(const bench_input *restrict in, bench_output *restrict out) {                                \
+        int i;                                                                                                         \
+        for (i = 0; i < BENCH_COUNT; i++) {                                                                            \
+            __VA_ARGS__                                                                                                \
+        }                                                                                                              \
+    }
+
+#endif
