@@ -108,7 +108,7 @@ LOBE_API float asg_integral(asg_lobe a) {
     float b = 1 + 0.27323954f * d * d / ((13.62806f + d * (1.851625f + d)) * (1 + 0.145226f * lobe_at_most(u, 1e15f)));
     float narrow = lobe_phi(l), wide = b * lobe_phi(b * u);
     LOBE_ASSERT(u >= 0);
-    return LOBE_PI * lobe_asg_exp(a.log_amplitude) * (narrow * sqrtf(wide / narrow)); /* the product may vanish */
+    return LOBE_PI * lobe_asg_exp(a.log_amplitude) * (wide * sqrtf(narrow / wide)); /* the product may vanish */
 }
 
 /*
@@ -123,9 +123,10 @@ LOBE_API float asg_integral(asg_lobe a) {
    Source:   Xu et al. 2013; 000, section 4.2 with an SG of sharpness 0
 */
 LOBE_API float asg_integral_approx(asg_lobe a) {
-    float x = lobe_at_least(a.sharpness_x, 1e-4f), y = lobe_at_least(a.sharpness_y, 1e-4f);
+    float least = lobe_at_least(lobe_at_most(a.sharpness_x, a.sharpness_y), 1e-4f);
+    float most = lobe_at_least(lobe_at_least(a.sharpness_x, a.sharpness_y), 1e-4f);
     LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0);
-    return LOBE_PI * lobe_asg_exp(a.log_amplitude) / (x * sqrtf(y / x)); /* x y may overflow */
+    return LOBE_PI * lobe_asg_exp(a.log_amplitude) / (least * sqrtf(most / least)); /* the product may overflow */
 }
 
 /*
@@ -194,11 +195,12 @@ LOBE_API float asg_sg_integral(asg_lobe a, sg_lobe g) {
     /* mean |z| of a normal deviate of mean side over its deviation, and what part of it lies above the horizon */
     float root = t * sqrtf(tau), side = 1.41421356f * z * root, beside = fabsf(side);
     float close = lobe_at_least(1 - 0.259302f * beside, 0), close2 = close * close;
-    float mean = root * (1 + 0.03304771f * t * k2) * (beside + close2 * close2 * (0.8032341f - 0.239188f * beside));
+    float tail = close2 * close2 * (0.8032341f - 0.239188f * beside);
+    float mean = (1 + 0.03304771f * t * k2) * (1.41421356f * fabsf(mz) + root * tail);
     float split = side * (2.554556f + (mz2 + 0.598075f * t) * (-0.826906f + 1.124705f * beside));
     LOBE_ASSERT(lx >= 0 && ly >= 0 && g.sharpness >= 0);
     exponent -= lobe_at_least(-split, 0); /* 1 / (1 + e^-split) = e^min(split, 0) / (1 + e^-|split|) */
-    return LOBE_PI * lobe_asg_exp(a.log_amplitude + g.log_amplitude + exponent) * (mean * sqrtf(p * q / k2)) /
+    return LOBE_PI * lobe_asg_exp(a.log_amplitude + g.log_amplitude + exponent) * (mean * sqrtf(axy / k2)) /
            ((1 + lobe_exp(-fabsf(split))) * lobe_at_least(5e-16f * g.sharpness, 1));
 }
 
@@ -206,17 +208,18 @@ LOBE_API float asg_sg_integral(asg_lobe a, sg_lobe g) {
  asg_isotropic - the SG that stands for an ASG: same axis, same peak, same integral where both are sharp
 
    a          sharpness [0, 1e30]
-   returns    sharpness 2 sqrt(sharpness_x sharpness_y)
+   returns    sharpness 2 sqrt(sharpness_x sharpness_y); 0 where one is below 1e-37 of the other
 
-   Rounding: <= 3 ulp   [bound asg_isotropic ulp 3 over 1e-30 1e30]
+   Rounding: <= 3 ulp   [bound asg_isotropic ulp 3 over 1e-6 1e30]
    Model:    the anisotropy is lost: asg_sg_form tells when that matters
    Source:   an ASG of equal sharpness l is near its axis an SG of sharpness 2 l
 */
 LOBE_API sg_lobe asg_isotropic(asg_lobe a) {
     sg_lobe g;
+    float most = lobe_at_least(lobe_at_least(a.sharpness_x, a.sharpness_y), LOBE_TINY);
     LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0);
     g.axis = a.z;
-    g.sharpness = 2 * (sqrtf(a.sharpness_x) * sqrtf(a.sharpness_y)); /* the product may overflow */
+    g.sharpness = 2 * most * sqrtf(lobe_at_most(a.sharpness_x, a.sharpness_y) / most); /* the product may overflow */
     g.log_amplitude = a.log_amplitude;
     return g;
 }
@@ -339,8 +342,8 @@ LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
    Rounding: <= 5 directional for sharpness ratios up to 100
              [bound asg_product_integral directional 5 over 1e6 1e8]
              The weight, the integral over the geometric mean of the lobes' integrals with themselves, is exactly 1 for
-             a lobe and itself and at most 1 + 3e-4 else; of lobes of any sharpness up to 1e9 it is symmetric to 1.5e-6,
-             and to the last bit where the compiler does not contract sums
+             a lobe and itself (by one copy of the code, if -ffast-math) and at most 1 + 3e-4 else; of lobes of any
+             sharpness up to 1e9 it is symmetric to 1.5e-6, and to the last bit where sums are not contracted
              [bound asg_product_integral symmetric 1.5e-6] [bound asg_product_integral excess 3e-4]
              As one lobe turns away from the other it falls, but for 1e-6   [bound asg_product_integral monotone 1e-6]
    Model:    within .0125 of that mean, relative RMS .045 where the value is above 1 % of it; for sharpness of 10 or
