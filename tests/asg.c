@@ -216,6 +216,54 @@ static void sg_integrals_match(void) {
     test_report(&xu_rms);
 }
 
+/* The formula of asg_sg_integral in double, without its care for rounding and for extremes */
+static double sg_integral_formula(const exact_asg *a, const double axis[3], double sharpness) {
+    double nu = 0.5 * sharpness, x = nu * dot(a->x, axis), y = nu * dot(a->y, axis), z = nu * dot(a->z, axis);
+    double rx = (nu + 0.9009611) / (a->lx + nu + 0.9009611), ry = (nu + 0.9009611) / (a->ly + nu + 0.9009611);
+    double d = 0.25 * (1 + rx + ry), tau = d + sqrt(d * d + rx * x * rx * x + ry * y * ry * y + z * z);
+    double p = 1 / (a->lx + tau), q = 1 / (a->ly + tau), t = 1 / tau;
+    double mx2 = x * x * p * p, my2 = y * y * q * q, mz2 = z * z * t * t, sum = 0.5 * (p + q + t);
+    double excess = sum + mx2 + my2 + mz2 - 1;
+    double k2 = tau * ((0.5 * p + 2 * mx2) * p + (0.5 * q + 2 * my2) * q) + 0.5 * t + 2 * mz2;
+    double exponent = pow(tau - nu, 2) * t - (a->lx * x * x * p + a->ly * y * y * q) * t +
+                      excess * tau * (1 - 0.41055794 * k2) * (0.8921123 * sum - 0.592386 * excess);
+    double side = sqrt(2 * t) * z,
+           tail = pow(fmax(1 - 0.259302 * fabs(side), 0), 4) * (0.8032341 - 0.239188 * fabs(side));
+    double mean = (1 + 0.03304771 * t * k2) * sqrt(t) * (fabs(side) + tail);
+    double split = side * (2.554556 + (mz2 + 0.598075 * t) * (-0.826906 + 1.124705 * fabs(side)));
+    return REFERENCE_PI * exp(exponent) * mean * sqrt(p * q / k2) / (1 + exp(-split));
+}
+
+static void sg_integral_rounds(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_sg_integral", "formula");
+    test_rng rng = {129};
+    int i, k;
+    for (i = 0; i < 50000; i++) {
+        double z[3], axis[3], inputs[4], wanted, aligned, e, angle;
+        asg_lobe a;
+        sg_lobe g;
+        exact_asg exact;
+        test_direction(&rng, z);
+        for (k = 0; k < 3; k++) inputs[k] = test_log_uniform(&rng, bound.low, bound.high);
+        angle = 4 * test_uniform(&rng) * sqrt(2 / (inputs[2] + 1) + 1 / (fmin(inputs[0], inputs[1]) + 0.5));
+        if (i % 4 == 0) angle = acos(1 - 2 * test_uniform(&rng));
+        inputs[3] = fmin(angle, REFERENCE_PI);
+        a = lobe_around(z, 7 * test_uniform(&rng), inputs[0], inputs[1]);
+        exact = exact_of(a);
+        direction_near(&rng, z, inputs[3], axis);
+        g = sg_around(axis, inputs[2]);
+        widen(g.axis, axis);
+        normalize(axis);
+        wanted = sg_integral_formula(&exact, axis, (double)g.sharpness);
+        aligned = sg_integral_formula(&exact, exact.z, (double)g.sharpness);
+        e = log(wanted / aligned);
+        if (!(e > -40)) continue;
+        test_within(&bound, (double)asg_sg_integral(a, g), wanted,
+                    wanted * directional(fmax(fmax(inputs[0], inputs[1]), inputs[2]), e), inputs, 4);
+    }
+    test_report(&bound);
+}
+
 /* How much the accurate form gains on Xu's where it has something to gain: for each of four ranges of the smaller
    sharpness and the light's. */
 static void sg_integral_gains(void) {
@@ -546,6 +594,88 @@ static void products_match(void) {
     test_report(&xu);
     test_report(&xu_rms);
     test_report(&xu_weights);
+}
+
+/* The formula of asg_product_integral in double, from the matrix itself */
+static double product_formula(asg_lobe first, asg_lobe second) {
+    const exact_asg a = exact_of(first), b = exact_of(second);
+    double q[3][3], adj[3][3], trace, m2 = 0, det = 0, tau, value, slope, bend, d, e2, e3, u, v, g0, g1, g2, g, h, c[3];
+    const double *pairs[3][2];
+    int i, j, k;
+    for (i = 0; i < 3; i++) {
+        for (j = 0; j < 3; j++) {
+            q[i][j] = a.lx * a.x[i] * a.x[j] + a.ly * a.y[i] * a.y[j] + b.lx * b.x[i] * b.x[j] + b.ly * b.y[i] * b.y[j];
+        }
+    }
+    for (i = 0; i < 3; i++) {
+        for (j = 0; j < 3; j++) {
+            int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+            adj[j][i] = q[i1][j1] * q[i2][j2] - q[i1][j2] * q[i2][j1];
+        }
+        m2 += adj[i][i];
+    }
+    for (k = 0; k < 3; k++) det += q[0][k] * adj[k][0];
+    trace = q[0][0] + q[1][1] + q[2][2];
+    tau = 1.321882 - det / (m2 + 1);
+    value = ((tau + trace - 1.5) * tau + m2 - trace) * tau + det - 0.5 * m2;
+    slope = (3 * tau + 2 * (trace - 1.5)) * tau + m2 - trace;
+    bend = 3 * tau + trace - 1.5;
+    tau -= value * slope / (slope * slope - value * bend);
+    d = 0.5 * ((3 * tau + 2 * trace) * tau + m2);
+    e3 = 0.125 / d;
+    e2 = fmin(2 * e3 * (trace + 3 * tau), 1.0 / 3);
+    u = 3 * e2;
+    v = 27 * e3;
+    g0 = v * (-0.2112965 + 0.2494492 * u);
+    g1 = 0.6530841 + u * (2.875329 - 2.399835 * u) + v * (0.9055348 - 0.8977529 * u);
+    g2 = 0.2046798 + u * (-2.830942 + 1.493817 * u) + v * (-0.8580086 + 1.091629 * u);
+    g = 4 * e3 * (g1 + g2);
+    h = g0 + g2 * (2 * tau * e3 - e2);
+    pairs[0][0] = pairs[0][1] = pairs[1][0] = a.z;
+    pairs[1][1] = pairs[2][0] = pairs[2][1] = b.z;
+    for (k = 0; k < 3; k++) { /* the fitted moment of the two axes: za.za, za.zb, zb.zb */
+        double form = 0, adjugate = 0, cosine = dot(pairs[k][0], pairs[k][1]);
+        for (i = 0; i < 3; i++) {
+            for (j = 0; j < 3; j++) {
+                form += pairs[k][0][i] * q[i][j] * pairs[k][1][j];
+                adjugate += pairs[k][0][i] * adj[i][j] * pairs[k][1][j];
+            }
+        }
+        /* of one axis with itself also the form itself: for two it is 0 in the limit of aligned axes */
+        c[k] =
+            h * cosine + g * (adjugate + tau * (trace + tau) * cosine) + (k == 1 ? 0 : (2 * g2 * e3 - g * tau) * form);
+    }
+    u = sqrt(c[0] * c[2]);
+    v = sqrt(fmax((u - c[1]) * (u + c[1]), 0));
+    v = 0.5 * fmax(c[1], 0) +
+        0.5 / REFERENCE_PI * v * v * v / (u * u + fabs(c[1]) * (1.5707963 * u + 0.4292037 * fabs(c[1])));
+    return REFERENCE_PI * v * exp(tau) / sqrt(d * (1 - 2 * e2));
+}
+
+static void product_rounds(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_product_integral", "formula");
+    test_rng rng = {130};
+    int i, k;
+    for (i = 0; i < 50000; i++) {
+        double z[3], other[3], inputs[5], wanted, aligned, smallest = test_log_uniform(&rng, bound.low, bound.high);
+        double most = 0, e;
+        asg_lobe a, b;
+        test_direction(&rng, z);
+        for (k = 0; k < 4; k++) {
+            inputs[k] = fmin(smallest * test_log_uniform(&rng, 1, 100), bound.high);
+            most = fmax(most, inputs[k]);
+        }
+        inputs[4] = fmin(3 * test_uniform(&rng) / sqrt(smallest + 0.3), 3.1);
+        a = lobe_around(z, 7 * test_uniform(&rng), inputs[0], inputs[1]);
+        direction_near(&rng, z, inputs[4], other);
+        b = lobe_around(other, 7 * test_uniform(&rng), inputs[2], inputs[3]);
+        wanted = product_formula(a, b);
+        aligned = sqrt(product_formula(a, a) * product_formula(b, b));
+        e = log(wanted / aligned);
+        if (!(e > -4.6)) continue; /* nearly opposed lobes cancel */
+        test_within(&bound, (double)asg_product_integral(a, b), wanted, wanted * directional(most, e), inputs, 5);
+    }
+    test_report(&bound);
 }
 
 /* Sharp lobes, where the model is exact: what is left is rounding. */
@@ -1395,6 +1525,7 @@ const test_case asg_tests[] = {
     {"asg_integral", integral_matches},
     {"asg_quadratures_agree", quadratures_agree},
     {"asg_sg_integral", sg_integrals_match},
+    {"asg_sg_integral_formula", sg_integral_rounds},
     {"asg_sg_integral_gains", sg_integral_gains},
     {"asg_sg_form", form_keeps_its_word},
     {"asg_sg_form_named_cases", form_named_cases},
@@ -1402,6 +1533,7 @@ const test_case asg_tests[] = {
     {"asg_sg_integral_below_aligned", sg_integrals_stay_below_aligned},
     {"asg_sg_integral_sharp_limit", sg_integrals_sharp_limit},
     {"asg_product_integral", products_match},
+    {"asg_product_integral_formula", product_rounds},
     {"asg_product_integral_rounding", products_round},
     {"asg_product_integral_xu", xu_needs_no_eigenvectors},
     {"asg_weights", weights_are_weights},
