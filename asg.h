@@ -162,9 +162,9 @@ LOBE_API float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
    Rounding: <= 9 directional against the limit of a point   [bound asg_sg_integral directional 9 over 1e12 1e20]
              and 16 against the formula in double   [bound asg_sg_integral formula 16 over 1e-2 1e8]
    Model:    within .042 of the value for aligned axes, relative RMS .022 where the value is above 1 % of that; within
-             5e-5 if all sharpnesses are 100 or more
+             7e-5 if all sharpnesses are 100 or more
              [bound asg_sg_integral aligned .042 over 1e-2 1e6] [bound asg_sg_integral rms .022 over 1e-2 1e6]
-             [bound asg_sg_integral sharp 5e-5 over 100 1e6]
+             [bound asg_sg_integral sharp 7e-5 over 100 1e6]
              For sharpness below 1e3 that RMS is 1/20 of that of Xu's form, or less
              [bound asg_sg_integral ratio .05 over .1 1e3]
    Source:   derived for this library: a saddlepoint tau of the Fisher-Bingham normaliser (after Kume and Wood 2005),
@@ -231,17 +231,20 @@ enum { ASG_FORM_SG = 0, ASG_FORM_XU = 1, ASG_FORM_ACCURATE = 2 };
  asg_sg_form - the simplest form of an ASG's integral with an SG that is good enough
 
    a                lobe, sharpness [0, 1e30]
-   light_sharpness  of the SG, or of the least sharp of many, [0, 1e30]
+   light_sharpness  of the SG, [0, 1e30]; a sharper one asks more of the SG form, a wider one more of Xu's
    tolerance        error allowed in any direction of the SG, over the integral for aligned axes
    returns          ASG_FORM_SG: sg_product_integral of asg_isotropic(a); ASG_FORM_XU: asg_sg_integral_xu;
                     ASG_FORM_ACCURATE: asg_sg_integral, also where its own error, within .042, exceeds the tolerance
 
    Rounding: decides at a limit only
-   Model:    the form named never loses more than the tolerance, if that is 1e-4 or more, and at the limit about half of
-             it: what an SG loses is bounded by how far its width is off and by curvature; what Xu's form loses falls
-             like .6 / nu, and like .3 e^-l / sqrt(nu) at the horizon, l the smaller sharpness, nu half the SG's
-             [bound asg_sg_form loss 1 over 1e-4 .5]
-   Source:   bounds fitted to quadrature for this library
+   Model:    the form named never loses more than the tolerance, if that is 1e-4 or more; at the limit it loses about
+             half of it, at most 96 %   [bound asg_sg_form loss 1 over 1e-4 .5]
+             With l the smaller sharpness, nu half the SG's: an SG is enough for lobes nearly round, when sqrt(ratio of
+             sharpnesses) is within 1 + 2.5 tolerance, and of l at least .15 / tolerance, more anisotropic ones if nu is
+             well below l; Xu's form is for nu of at least .6 / tolerance, and wide lobes (l below 5) of at least
+             (.3 / tolerance)^2, for what they lose at the horizon
+   Source:   bounds of what width and curvature cost, and of the limits of wide lights and wide lobes, fitted to
+             quadrature for this library
 */
 LOBE_API int asg_sg_form(asg_lobe a, float light_sharpness, float tolerance) {
     float least = lobe_at_least(lobe_at_most(lobe_at_most(a.sharpness_x, a.sharpness_y), 1e12f), 1e-6f);
@@ -249,7 +252,8 @@ LOBE_API int asg_sg_form(asg_lobe a, float light_sharpness, float tolerance) {
     float nu = lobe_at_least(lobe_at_most(0.5f * light_sharpness, 1e12f), 1e-6f), mean = sqrtf(least) * sqrtf(most);
     float inverse = 1 / (mean + nu), wide = (least + nu) * inverse, peak = sqrtf(wide * ((most + nu) * inverse)) - 1;
     float ratio = sqrtf(most / least) * wide - 1, share = nu / (least + nu), back = lobe_exp(-least);
-    float curved = lobe_at_least(0.65f * share * (1 - share), 0.14f * share) / least + back * (1 + back * (1 + back));
+    float curved =
+        lobe_at_least(0.65f * share * (1 - share), 0.14f * share) / least + 1.05f * back * (1 + back * (1 + back));
     float sg = lobe_at_least(peak, 0) + lobe_at_least(ratio / (ratio + 2.5f), 0) + curved;
     float xu = (0.24f + 0.36f * share + 0.4f * back) / nu + 0.32f * back / sqrtf(nu);
     LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && light_sharpness >= 0);
@@ -351,10 +355,10 @@ LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
              [bound asg_product_integral symmetric 1.5e-6] [bound asg_product_integral excess 3e-4]
              As one lobe turns away from the other it falls, but for 1e-6   [bound asg_product_integral monotone 1e-6]
    Model:    within .0125 of that mean, relative RMS .045 where the value is above 1 % of it; for sharpness of 10 or
-             more within .002 relative where it is above 1 % of the mean; the weight, as 004, Eq. 13 with beta 1,
+             more within .003 relative where it is above 1 % of the mean; the weight, as 004, Eq. 13 with beta 1,
              within .0125, RMS .001
              [bound asg_product_integral aligned .0125 over 1e-2 1e5]
-             [bound asg_product_integral rms .045 over 1e-2 1e5] [bound asg_product_integral sharp .002 over 10 1e5]
+             [bound asg_product_integral rms .045 over 1e-2 1e5] [bound asg_product_integral sharp .003 over 10 1e5]
              [bound asg_product_integral weight .0125 over .1 1e5]
              [bound asg_product_integral weight_rms .001 over .1 1e5]
    Source:   derived for this library: saddlepoint of the Bingham normaliser, fitted moments, and the arc-cosine kernel
@@ -376,12 +380,11 @@ LOBE_API float asg_product_integral(asg_lobe a, asg_lobe b) {
              the form with eigenvectors
              [bound asg_product_integral_xu directional 5 over 1e6 1e8]
              [bound asg_product_integral_xu eigenvectors 4e-5 over 10 1e4]
-   Model:    for sharpness of 10 or more within .005 of the geometric mean of the lobes' integrals with
-             themselves, relative RMS .004 where the value is above 1 % of that, the weight within .004; below
-             1 useless
-             [bound asg_product_integral_xu aligned .005 over 10 1e5]
+   Model:    for sharpness of 10 or more within .009 of the geometric mean of the lobes' integrals with themselves,
+             relative RMS .004 where the value is above 1 % of that, the weight within .006; below 1 useless
+             [bound asg_product_integral_xu aligned .009 over 10 1e5]
              [bound asg_product_integral_xu rms .004 over 10 1e5]
-             [bound asg_product_integral_xu weight .004 over 10 1e5]
+             [bound asg_product_integral_xu weight .006 over 10 1e5]
    Source:   Xu et al. 2013; 004, section 4.2. The smallest eigenvalue by Laguerre's method
 */
 LOBE_API float asg_product_integral_xu(asg_lobe a, asg_lobe b) {

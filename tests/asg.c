@@ -347,7 +347,8 @@ static form_case any_form_case(test_rng *rng, int form) {
     c.form = form;
     c.lx = test_log_uniform(rng, 1e-2, 1e5);
     c.ly = c.lx * test_log_uniform(rng, 1, test_uniform(rng) < 0.5 ? 3 : 1e3);
-    c.lg = test_log_uniform(rng, 1, 1e6);
+    if (test_uniform(rng) < 0.4) c.ly = c.lx;
+    c.lg = test_log_uniform(rng, 0.1, 1e6);
     nu = 0.5 * c.lg;
     c.angle = 2.5 * test_uniform(rng) / sqrt(c.lx * nu / (c.lx + nu) + 0.3);
     if (test_uniform(rng) < 0.2) c.angle = REFERENCE_PI / 2 + (test_uniform(rng) - 0.5) / sqrt(nu + 1);
@@ -374,7 +375,7 @@ static void form_keeps_its_word(void) {
                     next = any_form_case(&rng, form);
                 } else {
                     next.lx *= exp(step * (2 * test_uniform(&rng) - 1));
-                    next.ly *= exp(step * (2 * test_uniform(&rng) - 1));
+                    next.ly = c.ly == c.lx ? next.lx : next.ly * exp(step * (2 * test_uniform(&rng) - 1));
                     next.lg *= exp(step * (2 * test_uniform(&rng) - 1));
                     next.angle = fmin(next.angle * exp(step * (2 * test_uniform(&rng) - 1)), REFERENCE_PI);
                     next.azimuth += step * (2 * test_uniform(&rng) - 1);
