@@ -180,8 +180,7 @@ LOBE_API float asg_sg_integral(asg_lobe a, sg_lobe g) {
        difference of the two */
     float nu1 = nu + 0.9009611f, sx = lx + nu1, sy = ly + nu1, both = 1 / (sx * sy), wx = sy * both, wy = sx * both;
     float rx = nu1 * wx, ry = nu1 * wy, d = 0.25f + 0.25f * (rx + ry);
-    float radius = sqrtf(d * d + (rx * x * (rx * x) + ry * y * (ry * y) + z * z)),
-          tau = lobe_at_least(d + radius, 0.5f);
+    float radius = sqrtf(d * d + (rx * x * (rx * x) + ry * y * (ry * y) + z * z)), tau = d + radius;
     float reach = radius + nu, inverse = 1 / (tau * reach), t = reach * inverse;
     float away = lx * wx * (1 + rx) * (x * x) + ly * wy * (1 + ry) * (y * y),
           shift = d + (d * d - away) * (tau * inverse);
@@ -240,7 +239,7 @@ enum { ASG_FORM_SG = 0, ASG_FORM_XU = 1, ASG_FORM_ACCURATE = 2 };
    Model:    the form named never loses more than the tolerance, if that is 1e-4 or more; at the limit it loses about
              half of it, at most 96 %   [bound asg_sg_form loss 1 over 1e-4 .5]
              With l the smaller sharpness, nu half the SG's: an SG is enough for lobes nearly round, when sqrt(ratio of
-             sharpnesses) is within 1 + 2.5 tolerance, and of l at least .15 / tolerance, more anisotropic ones if nu is
+             sharpnesses) is within 1 + 2.5 tolerance, and of l at least .16 / tolerance, more anisotropic ones if nu is
              well below l; Xu's form is for nu of at least .6 / tolerance, and wide lobes (l below 5) of at least
              (.3 / tolerance)^2, for what they lose at the horizon
    Source:   bounds of what width and curvature cost, and of the limits of wide lights and wide lobes, fitted to
