@@ -110,19 +110,23 @@ static lobe_vec3 random_axis(void) {
     return nearly_unit(random_direction());
 }
 
+/* Which angle companions are drawn at; the hard cases have tests of their own that fix it. */
+enum { SAME, OPPOSED, ANYWHERE, CLOSE, ON_FLANK, NEARLY_OPPOSED, NEAR, ANGLES };
+static int fixed_angle = ANGLES;
+
 /* An axis at one of the interesting angles from another: 0, pi, any, 1e-7, on the flank of a lobe of that sharpness,
-   near 0, near pi. */
+   near pi, near 0. */
 static lobe_vec3 companion(lobe_vec3 axis, double sharpness) {
     double angle = test_log_uniform(&test_random, 1e-8, 1);
-    int kind = pick(7);
-    if (kind < 2) {
-        record_vector(lobe_scale(axis, kind ? -1 : 1));
-        return lobe_scale(axis, kind ? -1 : 1);
+    int kind = fixed_angle == ANGLES ? pick(ANGLES) : fixed_angle;
+    if (kind == SAME || kind == OPPOSED) {
+        record_vector(lobe_scale(axis, kind == SAME ? 1 : -1));
+        return lobe_scale(axis, kind == SAME ? 1 : -1);
     }
-    if (kind == 2) return random_axis();
-    if (kind == 3) angle = 1e-7;
-    if (kind == 4) angle = fmin(PI, test_log_uniform(&test_random, 0.1, 20) / sqrt(sharpness + 0.1));
-    return nearly_unit(turned(unit(wide(axis)), kind == 5 ? PI - angle : angle));
+    if (kind == ANYWHERE) return random_axis();
+    if (kind == CLOSE) angle = 1e-7;
+    if (kind == ON_FLANK) angle = fmin(PI, test_log_uniform(&test_random, 0.1, 20) / sqrt(sharpness + 0.1));
+    return nearly_unit(turned(unit(wide(axis)), kind == NEARLY_OPPOSED ? PI - angle : angle));
 }
 
 static sg_lobe lobe_of(lobe_vec3 axis, double sharpness, double log_amplitude) {
@@ -545,6 +549,36 @@ static void test_product_integral(void) {
     test_report(&approx);
 }
 
+/* The hard cases one by one: values, products and integrals of axes at one angle. */
+static void test_angle(int angle) {
+    fixed_angle = angle;
+    test_eval();
+    test_product();
+    test_product_integral();
+    fixed_angle = ANGLES;
+}
+
+static void test_identical_axes(void) {
+    test_angle(SAME);
+}
+
+static void test_close_axes(void) {
+    test_angle(CLOSE);
+}
+
+static void test_random_axes(void) {
+    test_angle(ANYWHERE);
+}
+
+static void test_axes_on_the_flank(void) {
+    test_angle(ON_FLANK);
+}
+
+static void test_antipodal_axes(void) {
+    test_angle(OPPOSED);
+    test_angle(NEARLY_OPPOSED);
+}
+
 /* Aligned lobes up to the sharpness that stays finite, where a product of two sharpnesses would not. */
 static void test_aligned(void) {
     test_bound bound = stated("aligned lobes rel", 1e-6);
@@ -677,13 +711,14 @@ static void test_cosine_integral(void) {
 /* At each sharpness the largest errors over all angles, in floats: ours, and that of Tokuyoshi et al. 2024 */
 static void test_cosine_against_tokuyoshi(void) {
     test_bound rel = test_bound_of("sg.h", "sg_cosine_integral", "rel");
-    enum { SHARPNESSES = 100, ANGLES = 160 };
+    enum { SHARPNESSES = 100, COSINES = 160 };
     int i, k;
     for (i = 0; i <= SHARPNESSES; i++) {
         double l = (double)(float)(rel.low * pow(rel.high / rel.low, (double)i / SHARPNESSES)), ours = 0, theirs = 0;
-        for (k = 0; k <= ANGLES; k++) {
-            double flank = (k - ANGLES / 4) * 8.0 / ANGLES / sqrt(1 + l), all = (k - ANGLES / 2) / (ANGLES / 4.0) - 1;
-            float c = (float)(k <= ANGLES / 2 ? fmax(-1, fmin(1, flank)) : all), got;
+        for (k = 0; k <= COSINES; k++) {
+            double flank = (k - COSINES / 4) * 8.0 / COSINES / sqrt(1 + l),
+                   all = (k - COSINES / 2) / (COSINES / 4.0) - 1;
+            float c = (float)(k <= COSINES / 2 ? fmax(-1, fmin(1, flank)) : all), got;
             double exact = exact_cosine(l, (double)c);
             begin();
             record(l);
@@ -1474,6 +1509,11 @@ const test_case sg_tests[] = {{"sg_exp2", test_exp2},
                               {"sg_product_values", test_product_values},
                               {"sg_product_integral", test_product_integral},
                               {"sg_product_integral_approx", test_product_integral_approx_model},
+                              {"sg_axes_identical", test_identical_axes},
+                              {"sg_axes_1e-7_apart", test_close_axes},
+                              {"sg_axes_random", test_random_axes},
+                              {"sg_axes_on_the_flank", test_axes_on_the_flank},
+                              {"sg_axes_antipodal", test_antipodal_axes},
                               {"sg_aligned", test_aligned},
                               {"sg_convolve", test_convolve},
                               {"sg_cosine_integral", test_cosine_integral},
