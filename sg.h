@@ -668,7 +668,8 @@ LOBE_API sg_lobe sg_reflection_lobe(lobe_vec3 normal, lobe_vec3 wi, float half_s
 }
 
 /* sg_ggx_lobe, sg_beckmann_lobe, sg_phong_lobe - sg_reflection_lobe for alpha in [1e-4, 1] (clamped below) and for a
-   Blinn-Phong exponent [0, 1e9]; the errors are its. GGX has heavier tails than any SG. */
+   Blinn-Phong exponent [0, 1e9]; the errors are its. GGX has heavier tails than any SG. sg_normalize makes any of them
+   integrate to 1. */
 LOBE_API sg_lobe sg_ggx_lobe(lobe_vec3 normal, lobe_vec3 wi, float alpha) {
     float clamped = lobe_at_least(alpha, 1e-4f);
     return sg_reflection_lobe(normal, wi, 2 / (clamped * clamped));
