@@ -75,7 +75,7 @@ LOBE_API float lobe_asg_square(float x) {
 
    a, dir     sharpness [0, 1e30]
    returns    max(dir.z, 0) exp(log_amplitude - sharpness_x (dir.x)^2 - sharpness_y (dir.y)^2), components
-              along the lobe's axes; 0 from the horizon down and below 2^-126, saturates at 2^127.4
+              along the lobe's axes; 0 from the horizon down and below 2^-126, saturates at 2^122
 
    Rounding: <= 4.5 directional; near the horizon 4.5 2^-24 of the exponential is added
              [bound asg_eval directional 4.5 over 1e-8 1e10]

@@ -6,7 +6,7 @@
 #ifndef TOKUYOSHI_H
 #define TOKUYOSHI_H
 
-#include <math.h>
+#include "../sg.h" /* first: it tells gcc and clang that sqrtf vectorises */
 
 /* What the published fit makes of the sharpness l */
 static inline float tokuyoshi_steepness(float l) {
