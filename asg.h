@@ -307,7 +307,7 @@ LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
     value = inverse * (((tau + trace - 1.5f) * tau + k.m2 - trace) * tau + k.det - 0.5f * k.m2);
     slope = inverse * ((3 * tau + 2 * (trace - 1.5f)) * tau + k.m2 - trace);
     bend = inverse * (3 * tau + trace - 1.5f);
-    tau -= value * slope / lobe_at_least(slope * slope - value * bend, 1e-6f);
+    tau -= value * slope / (slope * slope - value * bend); /* positive: all roots are real */
     /* Second and fourth moments of the Bingham density, as polynomials of the symmetric functions e2, e3 of its
        variances. The bounds of d and c hold but for rounding near equal eigenvalues, where the value is 0; that of e2
        belongs to the fit: tau is rough for sharpness below 1. */
