@@ -130,9 +130,14 @@ static double product_value(const double w[3], const void *context) {
     return exact_eval(&p->lobe[0], w) * exact_eval(&p->lobe[1], w) * exp(p->sharpness * (dot(w, p->axis) - 1));
 }
 
+static double light_value(const double w[3], const void *context) {
+    const product_context *p = (const product_context *)context;
+    return exact_eval(&p->lobe[0], w) * exp(p->sharpness * (dot(w, p->axis) - 1));
+}
+
 static void quadratures_agree(void) {
     test_rng rng = {103};
-    int i;
+    int i, k;
     for (i = 0; i < 8; i++) {
         product_context p;
         double z[3], other[3], got, wanted, inputs[2];
@@ -155,6 +160,26 @@ static void quadratures_agree(void) {
         got = inputs[0] = reference_product(a, NULL, NULL);
         wanted = inputs[1] = reference_integral((double)a.sharpness_x, (double)a.sharpness_y);
         test_that(fabs(got / wanted - 1) < 1e-9, "quadrature and disk integral agree", inputs, 2);
+    }
+    /* a light at the horizon and next to the pole of the quadrature's own frame */
+    for (i = 0; i < 5; i++) {
+        const double up[3] = {0, 0, 1};
+        product_context p;
+        double axis[3], azimuth = REFERENCE_PI / 2 + 0.001 * (i - 2), got, wanted, inputs[2];
+        asg_lobe a = lobe_around(up, 0, 0.03, 0.03);
+        sg_lobe g;
+        p.lobe[0] = exact_of(a);
+        for (k = 0; k < 3; k++) {
+            axis[k] =
+                sin(1.5698) * (cos(azimuth) * p.lobe[0].x[k] + sin(azimuth) * p.lobe[0].y[k]) + cos(1.5698) * up[k];
+        }
+        g = sg_around(axis, 48000);
+        widen(g.axis, p.axis);
+        normalize(p.axis);
+        p.sharpness = (double)g.sharpness;
+        got = inputs[0] = reference_product(a, NULL, &g);
+        wanted = inputs[1] = reference_sphere_azimuth(light_value, &p, p.axis, p.sharpness, 1000);
+        test_that(fabs(got / wanted - 1) < 1e-4, "two quadratures agree at the pole", inputs, 2);
     }
 }
 
@@ -314,7 +339,8 @@ static int form_of(asg_lobe a, const form_case *c, double tolerance) {
 /* The loss over the least tolerance for which the rule gives a form no dearer than that; 0 where there is none. */
 static double form_loss(const form_case *c) {
     const double up[3] = {0, 0, 1};
-    asg_lobe a = lobe_around(up, 0, c->lx, c->ly);
+    const asg_lobe a = lobe_around(up, 0, c->lx, c->ly);
+    const exact_asg exact = exact_of(a);
     double low = 1e-4, high = 0.5, axis[3], got, wanted, aligned;
     sg_lobe g = sg_around(up, c->lg);
     int i, form;
@@ -329,8 +355,7 @@ static double form_loss(const form_case *c) {
     if (form_of(a, c, low) <= c->form) high = low;
     aligned = reference_product(a, NULL, &g);
     for (i = 0; i < 3; i++) {
-        axis[i] = cos(c->angle) * up[i] +
-                  sin(c->angle) * (cos(c->azimuth) * (double)(&a.x.x)[i] + sin(c->azimuth) * (double)(&a.y.x)[i]);
+        axis[i] = cos(c->angle) * up[i] + sin(c->angle) * (cos(c->azimuth) * exact.x[i] + sin(c->azimuth) * exact.y[i]);
     }
     g = sg_around(axis, c->lg);
     wanted = reference_product(a, NULL, &g);
