@@ -922,6 +922,37 @@ static void weights_stay_numbers(void) {
     test_that(wrong == 0, "factor and exponent stay finite", NULL, 0);
 }
 
+static int nearly(float a, float b) {
+    return fabsf(a - b) <= 1e-3f * fabsf(b);
+}
+
+/* Sharpness above what a function counts is counted as that. */
+static void extremes_saturate(void) {
+    test_rng rng = {131};
+    int i;
+    for (i = 0; i < 2000; i++) {
+        double z[3], axis[3], inputs[2], other = test_log_uniform(&rng, 1e-3, 1e30);
+        asg_lobe a, b, c, d;
+        sg_lobe g;
+        test_direction(&rng, z);
+        inputs[0] = test_log_uniform(&rng, 1e19, 1e30);
+        inputs[1] = other;
+        a = lobe_around(z, 7 * test_uniform(&rng), inputs[0], other);
+        if (i % 2) a.sharpness_x = (float)other, a.sharpness_y = (float)inputs[0];
+        b = c = d = a;
+        b.sharpness_x = fminf(a.sharpness_x, 1e18f), b.sharpness_y = fminf(a.sharpness_y, 1e18f);
+        c.sharpness_x = fminf(a.sharpness_x, 1e12f), c.sharpness_y = fminf(a.sharpness_y, 1e12f);
+        d.sharpness_x = fminf(a.sharpness_x, 1e9f), d.sharpness_y = fminf(a.sharpness_y, 1e9f);
+        direction_near(&rng, z, i % 3 ? 0 : test_log_uniform(&rng, 1e-6, 3), axis);
+        g = sg_around(axis, test_log_uniform(&rng, 1e-3, 1e30));
+        test_that(nearly(asg_sg_integral_xu(a, g), asg_sg_integral_xu(b, g)), "Xu's form counts at most 1e18", inputs,
+                  2);
+        test_that(nearly(asg_sg_integral(a, g), asg_sg_integral(c, g)), "the accurate one at most 1e12", inputs, 2);
+        test_that(nearly(asg_product_integral(a, a), asg_product_integral(d, d)), "products at most 1e9", inputs, 2);
+        test_that(nearly(asg_product_integral_xu(a, a), asg_product_integral_xu(d, d)), "also Xu's", inputs, 2);
+    }
+}
+
 static void opposed_lobes_part(void) {
     double l;
     for (l = 0; l < 1e8; l = 10 * l + 0.1) {
@@ -1566,6 +1597,7 @@ const test_case asg_tests[] = {
     {"asg_weights_match", weights_match},
     {"asg_weights_stay_numbers", weights_stay_numbers},
     {"asg_weights_turn_smoothly", weights_turn_smoothly},
+    {"asg_extremes", extremes_saturate},
     {"asg_opposed_lobes", opposed_lobes_part},
     {"asg_convolve", convolve_widens},
     {"asg_convolve_consistent", convolve_is_consistent},
