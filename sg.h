@@ -712,7 +712,13 @@ LOBE_API vsgl_moments vsgl_moments_from_vpl(lobe_vec3 offset, lobe_vec3 normal, 
     return m;
 }
 
-/* vsgl_moments_add, vsgl_moments_scale - entry by entry; one rounding each. */
+/*
+ vsgl_moments_add, vsgl_moments_scale - entry by entry
+
+   Rounding: 2^-24 of each entry   [bound vsgl_moments_add rel 0x1p-24] [bound vsgl_moments_scale rel 0x1p-24]
+   Model:    exact
+   Source:   000, sections 3.1 to 3.3
+*/
 LOBE_API vsgl_moments vsgl_moments_add(vsgl_moments a, vsgl_moments b) {
     a.power[0] = lobe_add(a.power[0], b.power[0]);
     a.power[1] = lobe_add(a.power[1], b.power[1]);
