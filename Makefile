@@ -22,6 +22,9 @@ TESTS = $(wildcard tests/*.c)
 run: $(BUILD)/vsgl
 	$(BUILD)/vsgl $(ARGS)
 
+glossy_plane: $(BUILD)/glossy_plane
+	$(BUILD)/glossy_plane $(ARGS)
+
 test: $(BUILD)/tests headers readme vectors
 	$(BUILD)/tests $(ARGS)
 
@@ -30,6 +33,7 @@ bench: $(BUILD)/bench
 
 help:
 	@echo 'make           builds and runs the main example: one-bounce glossy indirect light (ARGS="--help" for more)'
+	@echo 'make glossy_plane  the same of an example: a sphere light over a glossy plane, as SGs and ASGs'
 	@echo 'make test      compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
 	@echo 'make bench     speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
 	@echo 'make clean     deletes $(BUILD)/'
@@ -42,6 +46,9 @@ clean:
 
 $(BUILD)/vsgl: examples/vsgl.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(OPENMP) examples/vsgl.c $(COMMON) -o $@ -lm
+
+$(BUILD)/glossy_plane: examples/glossy_plane.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
+	$(COMPILE) $(OPENMP) examples/glossy_plane.c $(COMMON) -o $@ -lm
 
 $(BUILD)/tests: $(TESTS) $(wildcard tests/*.h) $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(TESTS) -o $@ -lm
@@ -88,4 +95,4 @@ $(BUILD)/flags: force
 	@mkdir -p $(BUILD)
 	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
 
-.PHONY: run test bench help clean headers vectors readme force
+.PHONY: run glossy_plane test bench help clean headers vectors readme force

@@ -10,12 +10,14 @@ static void usage(FILE *to, const options *o, const char *program, const char *a
     fprintf(to, "usage: %s [options]\n%s\n\n", program, about);
     fprintf(to, "  --size WxH       of each image in pixels, 16x16 to 4096x4096 (default %dx%d)\n", o->width,
             o->height);
-    fprintf(to, "  --lights N,...   numbers of lights to try, up to %d of them, 1 to 65536 (default ",
-            OPTIONS_MAX_LIGHTS);
-    for (i = 0; i < o->light_counts; i++) fprintf(to, "%s%d", i ? "," : "", o->lights[i]);
-    fprintf(to, ")\n");
-    fprintf(to, "  --samples N      paths per pixel of the reference, 2 to 1000000 (default %d)\n", o->samples);
-    fprintf(to, "  --seed N         shifts every sample, 0 to 4294967295 (default %u)\n", o->seed);
+    if (o->light_counts > 0) {
+        fprintf(to, "  --lights N,...   numbers of lights to try, up to %d of them, 1 to 65536 (default ",
+                OPTIONS_MAX_LIGHTS);
+        for (i = 0; i < o->light_counts; i++) fprintf(to, "%s%d", i ? "," : "", o->lights[i]);
+        fprintf(to, ")\n");
+    }
+    fprintf(to, "  --samples N      samples per pixel of the reference, 2 to 1000000 (default %d)\n", o->samples);
+    if (!o->seedless) fprintf(to, "  --seed N         shifts every sample, 0 to 4294967295 (default %u)\n", o->seed);
     fprintf(to, "  --out PREFIX     beginning of the images' names (default %s)\n", o->out);
     fprintf(to, "  --help           prints this\n");
 }
@@ -60,8 +62,9 @@ void options_read(options *o, int argc, char **argv, const char *about) {
         if (!strcmp(name, "--help")) {
             usage(stdout, &defaults, argv[0], about);
             exit(0);
-        } else if (strcmp(name, "--size") && strcmp(name, "--lights") && strcmp(name, "--samples") &&
-                   strcmp(name, "--seed") && strcmp(name, "--out")) {
+        } else if (strcmp(name, "--size") && (strcmp(name, "--lights") || defaults.light_counts == 0) &&
+                   strcmp(name, "--samples") && (strcmp(name, "--seed") || defaults.seedless) &&
+                   strcmp(name, "--out")) {
             fprintf(stderr, "%s: unknown argument '%s'\n", argv[0], name);
         } else if (!value) {
             fprintf(stderr, "%s: %s needs a value\n", argv[0], name);

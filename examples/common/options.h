@@ -10,6 +10,7 @@ typedef struct {
     unsigned seed;
     int samples;
     const char *out;
+    int seedless; /* 1: nothing is random, and there is no --seed; likewise no --lights where light_counts is 0 */
 } options;
 
 /* Reads the arguments into o, which holds the defaults. --help: prints usage to stdout and exits with 0; anything
