@@ -22,6 +22,9 @@ TESTS = $(wildcard tests/*.c)
 run: $(BUILD)/vsgl
 	$(BUILD)/vsgl $(ARGS)
 
+glossy_plane: $(BUILD)/glossy_plane
+	$(BUILD)/glossy_plane $(ARGS)
+
 light_culling: $(BUILD)/light_culling
 	$(BUILD)/light_culling $(ARGS)
 
@@ -33,6 +36,7 @@ bench: $(BUILD)/bench
 
 help:
 	@echo 'make           builds and runs the main example: one-bounce glossy indirect light (ARGS="--help" for more)'
+	@echo 'make glossy_plane  the same of an example: a sphere light over a glossy plane, as SGs and ASGs'
 	@echo 'make light_culling  glossy caustics from 65,536 lights, culled with four bounding volumes (ARGS="--help")'
 	@echo 'make test      compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
 	@echo 'make bench     speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
@@ -46,6 +50,9 @@ clean:
 
 $(BUILD)/vsgl: examples/vsgl.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(OPENMP) examples/vsgl.c $(COMMON) -o $@ -lm
+
+$(BUILD)/glossy_plane: examples/glossy_plane.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
+	$(COMPILE) $(OPENMP) examples/glossy_plane.c $(COMMON) -o $@ -lm
 
 $(BUILD)/light_culling: examples/light_culling.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(OPENMP) examples/light_culling.c $(COMMON) -o $@ -lm
@@ -95,4 +102,4 @@ $(BUILD)/flags: force
 	@mkdir -p $(BUILD)
 	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
 
-.PHONY: run light_culling test bench help clean headers vectors readme force
+.PHONY: run glossy_plane light_culling test bench help clean headers vectors readme force

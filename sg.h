@@ -23,8 +23,11 @@
  Errors: "conditioned" is in (1 + |ln g|) 2^-24, g the exact value: what rounding of the inputs alone costs an
  exponential; where ln g is a sum, |ln g| stands for the sum of its terms' sizes. "ulp" is the spacing of floats at the
  exact value. "rel" is relative. Values below 2^-122, or below that of the peak, may be flushed to 0. Bounds hold for
- the sharpness range given; sharpness up to 1e30 stays finite. Out of finite input comes no NaN, and no infinity while
- log amplitudes are at most 8, lengths 1e5 and powers 1e18.
+ the sharpness range given.
+
+ Edges: a sharpness below 0 counts as 0, one above 1e30 as that or as infinite. Amplitudes saturate at 2^122. Out of
+ finite input comes no NaN and no infinity: for unit directions, any sharpness, log amplitudes up to 1e30 in size,
+ lengths up to 1e5 and powers up to 1e18.
 
  Loops: a plain loop over any function here, on arrays that hold one number each, becomes vector code in gcc and clang
  by -O3 and an instruction set alone. That takes exponentials, logarithms and turns of our own, since the C library's
@@ -40,7 +43,7 @@
    sg_product                       of two SGs, again an SG
    sg_product_integral, _approx     exact; Iwasaki 2012
    sg_convolve                      with a normalised SG kernel
-   sg_cosine_integral               against a clamped cosine
+   sg_cosine_integral, _approx      against a clamped cosine; by a shorter fit
    sg_mean_length                   Toksvig: length of the mean direction
    sg_sharpness_from_mean_length    its inverse
    sg_diffuse_lobe                  Lambert reflection lobe, normalised
@@ -201,8 +204,8 @@ LOBE_API lobe_vec3 lobe_cross(lobe_vec3 a, lobe_vec3 b) {
     return lobe_vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-/* v / |v| for lengths up to 1e18; the fallback below 1e-18. Chosen field by field, since clang does not vectorise a
-   choice of structs. */
+/* v / |v| for lengths from 1e-15 to 1e18; the fallback below 1e-18. Chosen field by field, since clang does not
+   vectorise a choice of structs. */
 LOBE_API lobe_vec3 lobe_normalize_or(lobe_vec3 v, lobe_vec3 fallback) {
     float size = sqrtf(lobe_dot(v, v)), inverse = 1 / lobe_at_least(size, 1e-18f);
     int long_enough = size > 1e-18f;
@@ -224,11 +227,11 @@ LOBE_API float lobe_exp2_slope(float r) {
 }
 
 /* Splits x = k + r with integer k and |r| <= 1/2; returns r, sets k and 2^k. Saturates below -127 (to 0), where the
-   bits of negative floats order as unsigned integers, and above 127.4. */
+   bits of negative floats order as unsigned integers, and above 122: times a few powers of 2 still finite. */
 LOBE_API float lobe_exp2_split(float x, float *whole, float *power) {
     unsigned u;
     int s;
-    x = lobe_at_most(x, 127.4f);
+    x = lobe_at_most(x, 122);
     memcpy(&u, &x, sizeof u);
     u = u < 0xC2FE0000u ? u : 0xC2FE0000u; /* -127 */
     memcpy(&x, &u, sizeof x);
@@ -239,7 +242,7 @@ LOBE_API float lobe_exp2_split(float x, float *whole, float *power) {
     return x - *whole;
 }
 
-/* 2^x; 0 below -126.5, 2^127.4 above 127.4.   [bound lobe_exp2 rel 1.1e-7] */
+/* 2^x; 0 below -126.5, 2^122 above 122.   [bound lobe_exp2 rel 1.1e-7] */
 LOBE_API float lobe_exp2(float x) {
     float whole, power, r = lobe_exp2_split(x, &whole, &power);
     return power * (1 + r * lobe_exp2_slope(r));
@@ -249,14 +252,15 @@ LOBE_API float lobe_exp(float x) {
     return lobe_exp2(LOBE_LOG2E * x);
 }
 
-/* (1 - e^-x) / x for x >= 0; 1 at 0, 0 at infinity.   [bound lobe_phi rel 2.5e-7]
+/* (1 - e^-x) / x for x >= 0; 1 at 0 and below, 0 at infinity.   [bound lobe_phi rel 2.5e-7]
    With -x log2(e) = k + r all terms are positive, and the last is exactly 0 for k = 0, in whatever order they are
    added. */
 LOBE_API float lobe_phi(float x) {
     float whole, power, r, slope;
+    x = lobe_at_least(x, LOBE_TINY);
     r = lobe_exp2_split(-LOBE_LOG2E * x, &whole, &power);
     slope = lobe_exp2_slope(r);
-    return power * slope * LOBE_LOG2E + (1 - power * (1 - whole * slope)) / lobe_max(x, LOBE_TINY);
+    return power * slope * LOBE_LOG2E + (1 - power * (1 - whole * slope)) / x;
 }
 
 /* ln(1 + f) / f for -.293 <= f <= .415, to 2^-24 */
@@ -312,11 +316,11 @@ LOBE_API void lobe_frame(lobe_vec3 axis, lobe_vec3 *x, lobe_vec3 *y) {
     *y = lobe_vector(t, sign + axis.y * axis.y * s, -axis.y);
 }
 
-/* |a - b|^2 of unit vectors, insensitive to errors in their lengths: the part of a - b along a + b is removed. */
+/* |a - b|^2 of unit vectors, insensitive to a difference of their lengths: the part of a - b along a + b is taken off. */
 LOBE_API float lobe_chord_squared(lobe_vec3 a, lobe_vec3 b) {
-    lobe_vec3 d = lobe_sub(a, b), s = lobe_add(a, b), e;
-    e = lobe_sub(d, lobe_scale(s, 0.25f * lobe_dot(d, s)));
-    return lobe_dot(e, e);
+    lobe_vec3 d = lobe_sub(a, b);
+    float along = lobe_dot(d, lobe_add(a, b)); /* twice that part for neighbours; for others it is rounding */
+    return lobe_at_least(lobe_dot(d, d) - 0.25f * along * along, 0);
 }
 
 /* ---- evaluate and integrate ---- */
@@ -325,7 +329,7 @@ LOBE_API float lobe_chord_squared(lobe_vec3 a, lobe_vec3 b) {
  sg_eval - value of an SG in a direction
 
    g, dir     sharpness [0, 1e30]
-   returns    exp(log_amplitude + sharpness (dot(dir, axis) - 1)); 0 below 2^-126, saturates at 2^127.4
+   returns    exp(log_amplitude + sharpness (dot(dir, axis) - 1)); 0 below 2^-126, saturates at 2^122
 
    Rounding: <= 8 (1 + |ln g|) 2^-24   [bound sg_eval conditioned 8 over 1e-8 1e10]
    Model:    exact
@@ -402,23 +406,29 @@ LOBE_API lobe_vec3 sg_sample(sg_lobe g, float u, float v) {
 */
 LOBE_API float sg_pdf(sg_lobe g, lobe_vec3 dir) {
     LOBE_ASSERT(g.sharpness >= 0);
-    return lobe_exp(-0.5f * g.sharpness * lobe_chord_squared(g.axis, dir)) / sg_integral(g.sharpness);
+    return lobe_exp(-0.5f * g.sharpness * lobe_chord_squared(g.axis, dir)) /
+           sg_integral(lobe_at_most(g.sharpness, LOBE_HUGE));
+}
+
+/* A lobe's sharpness as the product takes it. */
+LOBE_API float lobe_sharpness(sg_lobe g) {
+    return lobe_at_most(lobe_at_least(g.sharpness, 0), LOBE_HUGE);
 }
 
 /* The weighted mean (la a + lb b) / (la + lb) of two axes: the axis of the product, unnormalised; exactly 0 for opposed
    lobes of equal sharpness. */
 LOBE_API lobe_vec3 lobe_product_mean(sg_lobe a, sg_lobe b) {
-    float difference = (a.sharpness - b.sharpness) / lobe_at_least(a.sharpness + b.sharpness, LOBE_TINY);
+    float la = lobe_sharpness(a), lb = lobe_sharpness(b), difference = (la - lb) / lobe_at_least(la + lb, LOBE_TINY);
     return lobe_scale(lobe_add(lobe_add(a.axis, b.axis), lobe_scale(lobe_sub(a.axis, b.axis), difference)), 0.5f);
 }
 
 /* Where two SGs multiply: sharpness of the product from its mean axis, and log of what the misalignment costs (<= 0),
    which is |la a + lb b| - la - lb without cancellation. */
 LOBE_API float lobe_product_sharpness(sg_lobe a, sg_lobe b, lobe_vec3 mean, float *log_loss) {
-    float sum = a.sharpness + b.sharpness, sharpness = sum * sqrtf(lobe_dot(mean, mean));
-    float chord2 = lobe_chord_squared(a.axis, b.axis);
-    /* the minimum does nothing, but keeps -ffast-math from forming a.sharpness * b.sharpness, which may overflow */
-    *log_loss = -(a.sharpness * chord2) * lobe_at_most(b.sharpness / lobe_at_least(sharpness + sum, LOBE_TINY), 1);
+    float la = lobe_sharpness(a), lb = lobe_sharpness(b), sum = la + lb;
+    float sharpness = sum * sqrtf(lobe_dot(mean, mean)), chord2 = lobe_chord_squared(a.axis, b.axis);
+    /* the minimum does nothing, but keeps -ffast-math from forming la * lb, which may overflow */
+    *log_loss = -(la * chord2) * lobe_at_most(lb / lobe_at_least(sharpness + sum, LOBE_TINY), 1);
     return sharpness;
 }
 
@@ -467,9 +477,10 @@ LOBE_API float sg_product_integral(sg_lobe a, sg_lobe b) {
  sg_product_integral_approx - Iwasaki's form of the same integral, without a square root
 
    a, b       sharpness [0, 1e30], their sum at least about 10 for the model to hold
-   returns    [0, 2 pi / (sum of sharpness)] times both amplitudes; saturates at 2 pi 1e30 for sum 0
+   returns    [0, 2 pi / (sum of sharpness)] times both amplitudes; the sum counts as at
+              least 1e-8, the amplitudes' product as at most 5e29
 
-   Rounding: <= 8 (1 + |ln g|) 2^-24, g the value over that of aligned axes
+   Rounding: <= 8 (1 + |ln g|) 2^-24, g the value over that of aligned axes; with -ffast-math <= 8.5
              [bound sg_product_integral_approx conditioned 8 over 1e-8 1e10]
    Model:    relative error 1 / (exp(2 sum) - 1) for aligned axes; within .033 of the aligned value at any angle when
              both sharpnesses are at least 4, the worst for equal ones
@@ -477,11 +488,14 @@ LOBE_API float sg_product_integral(sg_lobe a, sg_lobe b) {
    Source:   Iwasaki, Dobashi and Nishita 2012; 004, section 4.1
 */
 LOBE_API float sg_product_integral_approx(sg_lobe a, sg_lobe b) {
-    float inverse = 1 / lobe_at_least(a.sharpness + b.sharpness, LOBE_TINY);
+    /* log2(e) / 2 over the sum of sharpnesses saves a rounding of the exponent, which is one of base 2 */
+    float inverse = 0.721347520f / lobe_at_least(a.sharpness + b.sharpness, 1e-8f);
     float chord2 = lobe_chord_squared(a.axis, b.axis);
+    /* the minimum keeps -ffast-math from forming the product of sharpnesses, as in lobe_product_sharpness */
+    float loss = chord2 * (a.sharpness * lobe_at_most(b.sharpness * inverse, 1));
+    float value = lobe_exp2(LOBE_LOG2E * (a.log_amplitude + b.log_amplitude) - loss);
     LOBE_ASSERT(a.sharpness >= 0 && b.sharpness >= 0);
-    return 2 * LOBE_PI * inverse *
-           lobe_exp(a.log_amplitude + b.log_amplitude - 0.5f * chord2 * (a.sharpness * (b.sharpness * inverse)));
+    return 8.71034436f * inverse * lobe_at_most(value, 5e29f); /* 2 pi over that constant */
 }
 
 /*
@@ -496,42 +510,86 @@ LOBE_API float sg_product_integral_approx(sg_lobe a, sg_lobe b) {
    Source:   004, Eq. 10 times kappa / (2 pi)
 */
 LOBE_API sg_lobe sg_convolve(sg_lobe g, float kappa) {
-    float ratio = g.sharpness / lobe_at_least(kappa, 1e-8f);
+    float sharpness = lobe_at_least(g.sharpness, 0), ratio = sharpness / lobe_at_least(kappa, 1e-8f);
     LOBE_ASSERT(g.sharpness >= 0 && kappa > 0);
-    g.sharpness = g.sharpness / (1 + ratio);
+    g.sharpness = sharpness / (1 + ratio);
     g.log_amplitude -= lobe_log(1 + ratio);
     return g;
 }
 
-/* The clamped cosine's mean over an SG whose axis makes that cosine with the normal. */
+/* The clamped cosine's mean over an SG, f(c), for the cosine c of axis and normal. f(c) - f(-c) = c (coth l - 1/l)
+   holds exactly, so only the tail f(-|c|) is fitted: by z^-1/2 P(1/w) exp(-(x^2 / (w + z) + Q(x z^-1/2, 1/z))) for
+   x = |c| l, where w^2 = l^2 + const and z^2 = l^2 - x^2 + const are smooth down to sharpness 0 and up to |c| = 1. The
+   limit for sharp lobes, a plane Gaussian's, is fitted too. */
 LOBE_API float lobe_cosine_mean(float sharpness, float cosine) {
-    float l = lobe_at_most(sharpness, 1e18f), al = lobe_at_most(fabsf(cosine), 1) * l;
-    float lk = sqrtf(l * l + 4), z = sqrtf((l - al) * (l + al) + 4);
-    float u = 3 / (3 + l), v = sqrtf(u), y = al * v, q = al * (al / ((z + lk) * lk));
-    float exponent =
-        q * (lk - 0.4376973f - 0.08004827f * u) + y * ((0.7025054f + u * (0.3865652f - 0.4270251f * u)) +
-                                                       y * ((-0.05964701f - 0.05367299f * u) + 0.00268569f * y));
-    float denominator = 1 + u * (-2.62787865f + u * (3.46178743f + u * (-1.98509711f + u * 0.936508642f)));
-    float peak = v * (0.230304177f + u * (-0.517313575f + u * (0.593470966f + u * (-0.194214744f + u * 0.084104355f))));
-    float mean = (1 - u) * (1 + u * (-1.95684843f + u * (1.97401732f - u * 0.231920424f)));
-    return (peak * lobe_exp(-exponent) + mean * lobe_at_most(lobe_at_least(cosine, 0), 1)) / denominator;
+    float l = lobe_at_most(lobe_at_least(sharpness, 0), 1e18f), l2 = l * l, x = lobe_at_most(fabsf(cosine), 1) * l;
+    float above = lobe_at_most(lobe_at_least(cosine, 0), 1);
+    float w = sqrtf(l2 + 10.080625f), z = sqrtf((l - x) * (l + x) + 13.883076f);
+    float u = 3.175f / w, u2 = u * u, r = 1 / z, v = sqrtf(r), y2 = lobe_at_most(x * (x * r), 100);
+    float q1 = 1.25318596f + r * (-0.700925667f + r * 3.07821469f);
+    float q2 = -0.21428287f + r * (-0.126762269f + r * 1.92073004f);
+    float q3 = 0.0295007156f + r * (-0.063974765f - r * 0.312272612f);
+    float q4 = -0.00220048637f + r * 0.0151185746f;
+    float exponent = x * (x / (w + z)) + y2 * (q2 + y2 * q4) + v * (x * (q1 + y2 * q3));
+    float peak = (0.39893968f - u * 0.0436513933f) + u2 * (0.107626766f + u * 0.0196575116f);
+    /* the mean length coth l - 1/l is 1 - loss, of which 1 - l / w is formed without the ones */
+    float slope = (-0.31499975f + u * 0.503122666f) +
+                  u2 * ((-0.341972456f + u * 0.444359873f) + u2 * (-0.313914669f + u * 0.0817299432f));
+    float short_by = u * (3.175f / (w + l)), loss = short_by + (short_by - 1) * (u * slope);
+    /* Legendre's expansion, where all this rounds worse */
+    float series =
+        0.25f + l * (cosine * (0.166666667f - 0.0111111111f * l2) + l * (0.03125f * (cosine * cosine) - 0.0104166667f));
+    return lobe_select(l < 0.1f, series, peak * v * lobe_exp(-exponent) + (above - above * loss));
+}
+
+/* The same by a shorter fit: one division, one square root and a short exponential. */
+LOBE_API float lobe_cosine_mean_approx(float sharpness, float cosine) {
+    float l = lobe_at_most(lobe_at_least(sharpness, 0), 1e18f), x = lobe_at_most(fabsf(cosine), 1) * l;
+    float h = (l + 2.57784986f) / (l * (l + 2.49227571f) + 7.00595474f), h2 = h * h, v = sqrtf(h), y2 = x * (x * h);
+    float even = ((-1.31730588f - h * 0.65896567f) + h2 * (4.65359893f - h * 7.03151852f)) +
+                 y2 * ((-0.648479621f + h * 0.7934065f) - y2 * 0.110719097f);
+    float odd = (-1.76199382f + h * 0.447495883f) + y2 * (0.299139938f - h * 1.17481288f);
+    float mean = l * h * (1 + h * (-1.03907259f + h * (5.65793909f - h * 9.70163327f)));
+    float whole, power, e = lobe_exp2_split(even + v * (x * odd), &whole, &power);
+    e = power *
+        (0.999928057f + e * (0.693260968f + e * (0.242611125f + e * 0.0551716685f))); /* 2^x to 1e-4, as the rest is */
+    return v * e + mean * lobe_at_least(cosine, 0);
 }
 
 /*
  sg_cosine_integral - integral of an SG times max(dot(w, normal), 0) over the sphere
 
-   g          sharpness [0, 1e30]
-   returns    [0, pi] times the amplitude, 0 only where it underflows; pi at sharpness 0; all within the model's error
+   g          sharpness [0, 1e30]; above 1e18 it counts as 1e18 for the cosine
+   returns    [0, pi] times the amplitude; pi at sharpness 0, 0 only where it underflows; all within the model's error
 
-   Rounding: below the model's
-   Model:    over sg_integral, within 4.5e-4 absolute   [bound sg_cosine_integral abs 4.5e-4 over 1e-3 1e6]
-   Source:   fitted for this library: f(c) - f(-c) = c (coth l - 1/l) holds exactly for the normalised integral f, so
-             only the tail f(-|c|) is fitted, in a form that stays positive
+   Rounding: below the model's, or 1e-7 over sg_integral
+   Model:    over sg_integral, within 3.1e-5 absolute; within 7e-6 for sharpness up to 1, and 8e-6 from 100 on; where it
+             is above 1e-3 within 2 % relative
+             [bound sg_cosine_integral abs 3.1e-5 over 1e-3 1e6] [bound sg_cosine_integral wide 7e-6 over 1e-3 1]
+             [bound sg_cosine_integral sharp 8e-6 over 100 1e6] [bound sg_cosine_integral rel 2e-2 over 1e-3 1e6]
+             At each of these sharpnesses at least as accurate as Tokuyoshi et al. 2024; with -ffast-math to 2^-24
+   Source:   fitted for this library, see lobe_cosine_mean
 */
 LOBE_API float sg_cosine_integral(sg_lobe g, lobe_vec3 normal) {
     LOBE_ASSERT(g.sharpness >= 0);
     return lobe_exp(g.log_amplitude) * sg_integral(g.sharpness) *
            lobe_cosine_mean(g.sharpness, lobe_dot(g.axis, normal));
+}
+
+/*
+ sg_cosine_integral_approx - the same integral by a shorter fit
+
+   g          sharpness [0, 1e30]
+   returns    at least 0, and 0 in the far tail, times the amplitude
+
+   Rounding: below the model's
+   Model:    over sg_integral, within 4.5e-4 absolute   [bound sg_cosine_integral_approx abs 4.5e-4 over 1e-3 1e6]
+   Source:   fitted for this library, see lobe_cosine_mean
+*/
+LOBE_API float sg_cosine_integral_approx(sg_lobe g, lobe_vec3 normal) {
+    LOBE_ASSERT(g.sharpness >= 0);
+    return lobe_exp(g.log_amplitude) * sg_integral(g.sharpness) *
+           lobe_cosine_mean_approx(g.sharpness, lobe_dot(g.axis, normal));
 }
 
 /*
@@ -547,6 +605,7 @@ LOBE_API float sg_cosine_integral(sg_lobe g, lobe_vec3 normal) {
 */
 LOBE_API float sg_mean_length(float sharpness) {
     LOBE_ASSERT(sharpness >= 0);
+    sharpness = lobe_at_least(sharpness, 0);
     return sharpness / (sharpness + 1);
 }
 
@@ -602,13 +661,15 @@ LOBE_API sg_lobe sg_reflection_lobe(lobe_vec3 normal, lobe_vec3 wi, float half_s
     float cos_theta = lobe_dot(wi, normal);
     LOBE_ASSERT(half_sharpness >= 0);
     g.axis = lobe_normalize_or(lobe_sub(lobe_scale(normal, 2 * cos_theta), wi), normal);
-    g.sharpness = lobe_at_most(half_sharpness / (4 * lobe_at_least(fabsf(cos_theta), 1e-4f)), LOBE_HUGE);
+    g.sharpness =
+        lobe_at_most(lobe_at_least(half_sharpness, 0) / (4 * lobe_at_least(fabsf(cos_theta), 1e-4f)), LOBE_HUGE);
     g.log_amplitude = 0;
     return g;
 }
 
 /* sg_ggx_lobe, sg_beckmann_lobe, sg_phong_lobe - sg_reflection_lobe for alpha in [1e-4, 1] (clamped below) and for a
-   Blinn-Phong exponent [0, 1e9]; the errors are its. GGX has heavier tails than any SG. */
+   Blinn-Phong exponent [0, 1e9]; the errors are its. GGX has heavier tails than any SG. sg_normalize makes any of them
+   integrate to 1. */
 LOBE_API sg_lobe sg_ggx_lobe(lobe_vec3 normal, lobe_vec3 wi, float alpha) {
     float clamped = lobe_at_least(alpha, 1e-4f);
     return sg_reflection_lobe(normal, wi, 2 / (clamped * clamped));
@@ -651,7 +712,13 @@ LOBE_API vsgl_moments vsgl_moments_from_vpl(lobe_vec3 offset, lobe_vec3 normal, 
     return m;
 }
 
-/* vsgl_moments_add, vsgl_moments_scale - entry by entry; one rounding each. */
+/*
+ vsgl_moments_add, vsgl_moments_scale - entry by entry
+
+   Rounding: 2^-24 of each entry   [bound vsgl_moments_add rel 0x1p-24] [bound vsgl_moments_scale rel 0x1p-24]
+   Model:    exact
+   Source:   000, sections 3.1 to 3.3
+*/
 LOBE_API vsgl_moments vsgl_moments_add(vsgl_moments a, vsgl_moments b) {
     a.power[0] = lobe_add(a.power[0], b.power[0]);
     a.power[1] = lobe_add(a.power[1], b.power[1]);

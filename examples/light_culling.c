@@ -803,7 +803,7 @@ static void show_scene(int which, const options *o) {
 }
 
 int main(int argc, char **argv) {
-    options o = {640, 480, {0}, 0, 0, 0, "build/light_culling", 0.1f, 16};
+    options o = {640, 480, {0}, 0, 0, 0, "build/light_culling", 0, 0.1f, 16};
     int which;
     options_read(
         &o, argc, argv,

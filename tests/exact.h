@@ -103,7 +103,8 @@ static inline double clamped_cosine_ring(double theta, double c) {
     return 2 * (a * half + b * sin(half));
 }
 
-/* Integral of a unit SG times the clamped cosine, over the SG's integral; panels end where the ring has kinks. */
+/* Integral of a unit SG times the clamped cosine, over the SG's integral, to 1e-13. Panels end where the ring has kinks,
+   which are roots: theta goes from end to end like a cosine, in which they are smooth. */
 static inline double exact_cosine(double sharpness, double cosine) {
     static reference_gauss rule;
     double c = fmin(1, fmax(-1, cosine)), kink = fabs(asin(c)), ends[4] = {0, 0, 0, REFERENCE_PI}, whole = 0;
@@ -117,9 +118,10 @@ static inline double exact_cosine(double sharpness, double cosine) {
         for (; from < end; from = to) {
             to = fmin(from + width, end);
             for (i = 0; i < REFERENCE_GAUSS_COUNT; i++) {
-                double theta = from + (to - from) * 0.5 * (1 + rule.node[i]), s = sin(theta / 2);
-                whole += 0.5 * (to - from) * rule.weight[i] * exp(-2 * sharpness * s * s) * sin(theta) *
-                         clamped_cosine_ring(theta, c);
+                double turn = REFERENCE_PI / 2 * (1 + rule.node[i]);
+                double theta = 0.5 * ((from + to) - (to - from) * cos(turn)), s = sin(theta / 2);
+                whole += REFERENCE_PI / 4 * (to - from) * sin(turn) * rule.weight[i] * exp(-2 * sharpness * s * s) *
+                         sin(theta) * clamped_cosine_ring(theta, c);
             }
         }
     }

@@ -10,21 +10,21 @@ static void usage(FILE *to, const options *o, const char *program, const char *a
     fprintf(to, "usage: %s [options]\n%s\n\n", program, about);
     fprintf(to, "  --size WxH       of each image in pixels, 16x16 to 4096x4096 (default %dx%d)\n", o->width,
             o->height);
-    if (o->light_counts) {
+    if (o->light_counts > 0) {
         fprintf(to, "  --lights N,...   numbers of lights to try, up to %d of them, 1 to 65536 (default ",
                 OPTIONS_MAX_LIGHTS);
         for (i = 0; i < o->light_counts; i++) fprintf(to, "%s%d", i ? "," : "", o->lights[i]);
         fprintf(to, ")\n");
     }
     if (o->samples)
-        fprintf(to, "  --samples N      paths per pixel of the reference, 2 to 1000000 (default %d)\n", o->samples);
+        fprintf(to, "  --samples N      samples per pixel of the reference, 2 to 1000000 (default %d)\n", o->samples);
     if (o->delta > 0)
         fprintf(to, "  --delta X        radiance below which lights are left out at random, 1e-9 to 1e9 (default %g)\n",
                 (double)o->delta);
     if (o->tile)
         fprintf(to, "  --tile N         edge of a tile, in pixels of an interleaved image, 2 to 16 (default %d)\n",
                 o->tile);
-    fprintf(to, "  --seed N         shifts every sample, 0 to 4294967295 (default %u)\n", o->seed);
+    if (!o->seedless) fprintf(to, "  --seed N         shifts every sample, 0 to 4294967295 (default %u)\n", o->seed);
     fprintf(to, "  --out PREFIX     beginning of the images' names (default %s)\n", o->out);
     fprintf(to, "  --help           prints this\n");
 }
@@ -73,7 +73,8 @@ static int known(const options *defaults, const char *name) {
     if (!strcmp(name, "--samples")) return defaults->samples > 0;
     if (!strcmp(name, "--delta")) return defaults->delta > 0;
     if (!strcmp(name, "--tile")) return defaults->tile > 0;
-    return !strcmp(name, "--size") || !strcmp(name, "--seed") || !strcmp(name, "--out");
+    if (!strcmp(name, "--seed")) return !defaults->seedless;
+    return !strcmp(name, "--size") || !strcmp(name, "--out");
 }
 
 void options_read(options *o, int argc, char **argv, const char *about) {

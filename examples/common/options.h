@@ -10,6 +10,7 @@ typedef struct {
     unsigned seed;
     int samples;
     const char *out;
+    int seedless; /* 1: nothing is random, and there is no --seed */
     float delta; /* radiance below which lights are left out at random */
     int tile;    /* edge of the squares of pixels for which lights are culled */
 } options;

@@ -63,6 +63,16 @@ static void draw_flank(float *in) { /* where a lobe crosses the horizon, in thre
     put(in + LOBE_B, uniform() < 0.25 ? direction() : turned(a, fmin(REFERENCE_PI, fmax(0, angle))));
 }
 
+static void draw_cosine(float *in) {
+    draw_flank(in);
+    in[LOBE_COSINE] = (float)dot(unit(wide(vector_in(in, 1, LOBE_A))), unit(wide(vector_in(in, 1, LOBE_B))));
+}
+
+static void draw_sharp_flank(float *in) {
+    do draw_flank(in);
+    while (in[LOBE_A + 3] < 4);
+}
+
 static void draw_length(float *in) { /* of a mean direction */
     double l = log_uniform(1e-8, 1e5);
     in[LOBE_A + 3] = (float)(l / (l + 1));
@@ -212,6 +222,11 @@ static void exact_cosine_integral(const float *in, double *wanted) {
     wanted[0] = wanted[1] * exact_cosine(sharpness_of(in), c);
 }
 
+static void exact_cosine_mean(const float *in, double *wanted) {
+    wanted[0] = exact_cosine(sharpness_of(in), (double)in[LOBE_COSINE]);
+    wanted[1] = 1;
+}
+
 static void exact_clamped_cosine(const float *in, double *wanted) {
     wanted[0] = fmax(0, dot(unit(wide(vector_in(in, 1, LOBE_A))), unit(wide(vector_in(in, 1, LOBE_B))))) / REFERENCE_PI;
     wanted[1] = 1;
@@ -313,6 +328,10 @@ BENCH_DECLARE(our_product_integral);
 BENCH_DECLARE(our_product_integral_approx);
 BENCH_DECLARE(our_convolve);
 BENCH_DECLARE(our_cosine);
+BENCH_DECLARE(our_cosine_approx);
+BENCH_DECLARE(our_cosine_mean);
+BENCH_DECLARE(our_cosine_mean_approx);
+BENCH_DECLARE(tokuyoshi_2024_mean);
 BENCH_DECLARE(our_mean_length);
 BENCH_DECLARE(our_sharpness);
 BENCH_DECLARE(our_diffuse_lobe);
@@ -349,6 +368,13 @@ BENCH_DECLARE(tokuyoshi_2024_cosine);
 
 #define CONDITIONED "(1 + |ln g|) 2^-24"
 #define PAIR "sharpness 1e-8 to 1e10, axes equal to opposed"
+
+#define COSINE_FORMS                                                                                                   \
+    BENCH_FORM("sg_cosine_integral", our_cosine), BENCH_FORM("sg_cosine_integral_approx", our_cosine_approx),          \
+        BENCH_FORM("constant cosine (000)", constant_cosine),                                                          \
+        BENCH_FORM("SG of 2.133, product integral", inner_product_cosine),                                             \
+        BENCH_FORM("Hill's fit, libm", hill_cosine), BENCH_FORM("Tokuyoshi 2022, libm", tokuyoshi_2022_cosine),        \
+        BENCH_FORM("Tokuyoshi 2024, libm", tokuyoshi_2024_cosine)
 
 const bench_row sg_bench[] = {
     {"sg_eval",
@@ -434,10 +460,25 @@ const bench_row sg_bench[] = {
      draw_flank,
      exact_cosine_integral,
      relative,
-     {BENCH_FORM("sg_cosine_integral", our_cosine), BENCH_FORM("constant cosine (000)", constant_cosine),
-      BENCH_FORM("SG of 2.133, product integral", inner_product_cosine), BENCH_FORM("Hill's fit, libm", hill_cosine),
-      BENCH_FORM("Tokuyoshi 2022, libm", tokuyoshi_2022_cosine),
-      BENCH_FORM("Tokuyoshi 2024, libm", tokuyoshi_2024_cosine)}},
+     {COSINE_FORMS}},
+    {"sg_cosine_integral, sharp",
+     "sharpness 4 to 1e6",
+     "the SG's integral",
+     2,
+     draw_sharp_flank,
+     exact_cosine_integral,
+     relative,
+     {COSINE_FORMS}},
+    {"lobe_cosine_mean",
+     "sharpness 1e-3 to 1e6, mostly at the horizon",
+     "1; all on our primitives",
+     2,
+     draw_cosine,
+     exact_cosine_mean,
+     relative,
+     {BENCH_FORM("of sg_cosine_integral", our_cosine_mean),
+      BENCH_FORM("of sg_cosine_integral_approx", our_cosine_mean_approx),
+      BENCH_FORM("Tokuyoshi 2024", tokuyoshi_2024_mean)}},
     {"sg_mean_length",
      PAIR,
      "the value",

@@ -5,8 +5,8 @@
 #include "../../sg.h"
 #include "bench.h"
 
-/* Two lobes, or a lobe and a direction; two uniform numbers. */
-enum { LOBE_A = 0, LOBE_B = 5, UNIFORM_U = 10, UNIFORM_V };
+/* Two lobes, or a lobe and a direction; two uniform numbers; the cosine of both axes. */
+enum { LOBE_A = 0, LOBE_B = 5, UNIFORM_U = 10, UNIFORM_V, LOBE_COSINE };
 
 /* A virtual point light, seen from a point: power of the component in question, of the other one none. */
 enum {

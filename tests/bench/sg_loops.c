@@ -2,12 +2,14 @@
  sg_loops.c - one loop for each function of sg.h, which must become vector code, and one for each alternative: the
  papers' forms as printed with the C library's functions, and published approximations.
 */
+#include "../tokuyoshi.h"
 #include "sg_columns.h"
 
 #define FROM &in->column[0][i], BENCH_COUNT
 #define A lobe_in(FROM, LOBE_A)
 #define B lobe_in(FROM, LOBE_B)
 #define SHARPNESS in->column[LOBE_A + 3][i]
+#define COSINE in->column[LOBE_COSINE][i]
 #define OUT(k) out->column[k][i]
 
 static inline void put_lobe(bench_output *restrict out, int i, int column, sg_lobe g) {
@@ -61,6 +63,9 @@ BENCH_LOOP(our_convolve, {
     OUT(1) = g.log_amplitude;
 })
 BENCH_LOOP(our_cosine, OUT(0) = sg_cosine_integral(A, B.axis);)
+BENCH_LOOP(our_cosine_approx, OUT(0) = sg_cosine_integral_approx(A, B.axis);)
+BENCH_LOOP(our_cosine_mean, OUT(0) = lobe_cosine_mean(SHARPNESS, COSINE);)
+BENCH_LOOP(our_cosine_mean_approx, OUT(0) = lobe_cosine_mean_approx(SHARPNESS, COSINE);)
 BENCH_LOOP(our_mean_length, OUT(0) = sg_mean_length(SHARPNESS);)
 BENCH_LOOP(our_sharpness, OUT(0) = sg_sharpness_from_mean_length(SHARPNESS);)
 BENCH_LOOP(our_diffuse_lobe, OUT(0) = sg_eval(sg_diffuse_lobe(A.axis), B.axis);)
@@ -255,35 +260,31 @@ BENCH_LOOP(tokuyoshi_2022_cosine, {
     OUT(0) = 2 * LOBE_PI * 1182.2467339678f * (difference > 0 ? difference : 0);
 })
 
-/* Tokuyoshi et al. 2024, Hierarchical Light Sampling with Accurate Spherical Gaussian Lighting: between the integrals
-   for the two opposed normals by a share that is exact in the sharp limit. The integrals are series for small
-   sharpness. */
-static inline float tokuyoshi_steepness(float l) {
-    return l * sqrtf(0.5f * ((l + 2.73608316113f) * l + 17.0212977787f) /
-                     (((l + 4.01008267285f) * l + 15.2191562631f) * l + 76.0878962724f));
+BENCH_LOOP(tokuyoshi_2024_cosine, OUT(0) = tokuyoshi_2024(SHARPNESS, lobe_dot(A.axis, B.axis));)
+
+/* The same over the SG's integral, on our primitives, as one would write it for vector code: the error
+   function after Abramowitz and Stegun 7.1.26, the difference of exponentials as it stands. */
+static inline float erfc_slope(float x) { /* e^(x^2) erfc(x) for x >= 0, to 1.5e-7 */
+    float t = 1 / (1 + 0.3275911f * x);
+    return t * (0.254829592f + t * (-0.284496736f + t * (1.421413741f + t * (-1.453152027f + t * 1.061405429f))));
 }
 
-static inline float tokuyoshi_between(float lower, float upper, float share) {
-    float clamped = share < 0 ? 0 : share > 1 ? 1 : share;
-    return 2 * LOBE_PI * (lower + (upper - lower) * clamped);
-}
-
-BENCH_LOOP(tokuyoshi_2024_cosine, {
-    float l = SHARPNESS;
-    float c = lobe_dot(A.axis, B.axis);
+BENCH_LOOP(tokuyoshi_2024_mean, {
+    float l = lobe_at_most(SHARPNESS, 1e12f);
+    float c = COSINE;
+    float a = lobe_at_most(fabsf(c), 1);
     float t = tokuyoshi_steepness(l);
-    float tz = t * c;
-    float e = expf(-l);
-    float share = 0.5f * (c * erfcf(-tz) + erfcf(t)) -
-                  0.282094792f * expf(-tz * tz) * expm1f(t * t * (c * c - 1)) / (t > 1e-7f ? t : 1e-7f);
-    float upper;
-    float lower;
-    if (l <= 0.5f) {
-        upper = 0.5f + l * (-1.0f / 6 + l * (1.0f / 24 + l * (-1.0f / 120 + l * (1.0f / 720 + l * (-1.0f / 5040)))));
-        lower = e * (0.5f + l * (-1.0f / 3 + l * (0.125f + l * (-1.0f / 30 + l * (1.0f / 144 + l * (-1.0f / 840))))));
-    } else {
-        upper = (expm1f(-l) + l) / (l * l);
-        lower = e * (-expm1f(-l) - l * e) / (l * l);
-    }
-    OUT(0) = tokuyoshi_between(lower, upper, share);
+    float tz = t * a;
+    float e = lobe_exp(-l);
+    float ez = lobe_exp(-tz * tz);
+    float et = lobe_exp(-t * t);
+    float share = lobe_at_most(lobe_at_least(c, 0), 1) - 0.5f * (a * (erfc_slope(tz) * ez) - erfc_slope(t) * et) +
+                  0.282094792f * (ez - et) / lobe_at_least(t, LOBE_TINY);
+    float inverse = 1 / lobe_at_least(l, LOBE_TINY);
+    float phi_sharp = (1 - e) * inverse;
+    float series = 0.5f + l * (-1.0f / 6 + l * (1.0f / 24 + l * (-1.0f / 120 + l * (1.0f / 720 - l * (1.0f / 5040)))));
+    float upper = lobe_select(l < 0.5f, series, (1 - phi_sharp) * inverse);
+    float phi = lobe_select(l < 0.5f, 1 - l * series, phi_sharp);
+    float lower = e * (phi - upper);
+    OUT(0) = (lower + (upper - lower) * lobe_at_most(lobe_at_least(share, 0), 1)) / (phi * (1 + e));
 })
