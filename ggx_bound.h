@@ -1031,7 +1031,7 @@ LOBE_API lobe_vec3 lobe_ggx_nearer(lobe_vec3 q, lobe_vec3 other) {
 LOBE_API int ggx_stretched_hits_frustum(ggx_stretched s, ggx_tile tile, float depth0, float depth1) {
     float wide = lobe_max(fabsf(tile.left), fabsf(tile.right)), high = lobe_max(fabsf(tile.bottom), fabsf(tile.top));
     float most = lobe_max(wide, high), z = 0.5f * (depth0 + depth1), x, y, slack;
-    int step, parted = 0;
+    int parted;
     lobe_vec3 q, lowest;
     slack = 1.00001f + 1.90734863e-6f *
                            (s.size + depth1 * ((s.xx + fabsf(s.xy) + s.yy) * most + fabsf(s.xz) + fabsf(s.yz) + s.zz));
@@ -1039,11 +1039,14 @@ LOBE_API int ggx_stretched_hits_frustum(ggx_stretched s, ggx_tile tile, float de
     y = 0.5f * lobe_select(s.swapped, tile.left + tile.right, tile.bottom + tile.top);
     q = lobe_vector(z * (s.xx * x + s.xy * y + s.xz) - s.center.x, z * (s.yy * y + s.yz) - s.center.y,
                     z * s.zz - s.center.z);
-    for (step = 0; step < 3; step++) {
-        lowest = lobe_ggx_support(s, tile, depth0, depth1, q);
-        parted |= lobe_dot(q, lowest) > slack * sqrtf(lobe_dot(q, q));
-        q = lobe_ggx_nearer(q, lowest);
-    }
+    lowest = lobe_ggx_support(s, tile, depth0, depth1, q);
+    parted = lobe_dot(q, lowest) > slack * sqrtf(lobe_dot(q, q));
+    q = lobe_ggx_nearer(q, lowest);
+    lowest = lobe_ggx_support(s, tile, depth0, depth1, q);
+    parted |= lobe_dot(q, lowest) > slack * sqrtf(lobe_dot(q, q));
+    q = lobe_ggx_nearer(q, lowest);
+    lowest = lobe_ggx_support(s, tile, depth0, depth1, q);
+    parted |= lobe_dot(q, lowest) > slack * sqrtf(lobe_dot(q, q));
     return !parted;
 }
 
