@@ -316,7 +316,7 @@ LOBE_API void lobe_frame(lobe_vec3 axis, lobe_vec3 *x, lobe_vec3 *y) {
     *y = lobe_vector(t, sign + axis.y * axis.y * s, -axis.y);
 }
 
-/* |a - b|^2 of unit vectors, insensitive to a difference of their lengths: the part of a - b along a + b is taken off. */
+/* |a - b|^2 of unit vectors, insensitive to a difference of their lengths: the part of a - b along a + b is removed. */
 LOBE_API float lobe_chord_squared(lobe_vec3 a, lobe_vec3 b) {
     lobe_vec3 d = lobe_sub(a, b);
     float along = lobe_dot(d, lobe_add(a, b)); /* twice that part for neighbours; for others it is rounding */

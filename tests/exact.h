@@ -103,8 +103,8 @@ static inline double clamped_cosine_ring(double theta, double c) {
     return 2 * (a * half + b * sin(half));
 }
 
-/* Integral of a unit SG times the clamped cosine, over the SG's integral, to 1e-13. Panels end where the ring has kinks,
-   which are roots: theta goes from end to end like a cosine, in which they are smooth. */
+/* Integral of a unit SG times the clamped cosine, over the SG's integral, to 1e-13. Panels end where the ring has
+   kinks, which are roots: theta goes from end to end like a cosine, in which they are smooth. */
 static inline double exact_cosine(double sharpness, double cosine) {
     static reference_gauss rule;
     double c = fmin(1, fmax(-1, cosine)), kink = fabs(asin(c)), ends[4] = {0, 0, 0, REFERENCE_PI}, whole = 0;
