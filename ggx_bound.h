@@ -488,7 +488,7 @@ LOBE_API ggx_ellipsoid lobe_ggx_ellipsoid_of(lobe_vec3 position, lobe_vec3 u, lo
                 ggx_brdf_cos, or _separable, is above xi
 
    Rounding: covered: the region is inside, also as floats are rounded, of directions of length 1 to 1e-7
-   Model:    a bound: the region's volume is about half of the spheroid's at normal incidence and less at others
+   Model:    a bound, exact but for masking and the horizon in the plane of incidence, loose across it at grazing angles
    Source:   003, Eqs. 12 to 15
 */
 LOBE_API ggx_ellipsoid ggx_bound_spheroid(lobe_vec3 position, lobe_vec3 normal, lobe_vec3 wi, float alpha, float flux,
@@ -500,7 +500,8 @@ LOBE_API ggx_ellipsoid ggx_bound_spheroid(lobe_vec3 position, lobe_vec3 normal, 
 }
 
 /* d = 1 - eta^2 in (eps / 2, 1] for which the ellipsoid is about smallest, eps = 1 - e, h = e sin^2: within .3 % in the
-   mean and 2 % of the best. Any d in that interval gives a bound. */
+   mean and 2 % of the best. Any d in that interval gives a bound.
+   [bound lobe_ggx_tightness mean .003] [bound lobe_ggx_tightness worst .02] */
 LOBE_API float lobe_ggx_tightness(float h, float eps, float c2, float s) {
     float t = eps * (5 * h + 4 * c2) * s, root = sqrtf(t * t + 128 * eps * c2 * h * (h + c2));
     float q = 4 * h * s / lobe_at_least(t + root, LOBE_TINY), q2 = q * q; /* at most .4 / eps, so d at least .99 eps */

@@ -320,7 +320,7 @@ static float draw_alpha(void) {
 static light draw_light(double tip_low, double tip_high) {
     light l;
     double c, tip = log_uniform(tip_low, tip_high), a;
-    l.position = narrow(combine(pick(3) ? log_uniform(1e-2, 1e4) : 0, random_direction(), 0, random_direction()));
+    l.position = narrow(combine(pick(3) ? log_uniform(1e-2, 1e5) : 0, random_direction(), 0, random_direction()));
     l.normal = nearly_unit(pick(8) ? random_direction() : of(0, 0, 1));
     do l.tangent = nearly_unit(random_direction());
     while (fabs(dot(wide(l.tangent), wide(l.normal))) > 0.9);
@@ -573,6 +573,36 @@ static void test_volumes(void) {
     }
     test_report(&near_table);
     test_report(&same);
+}
+
+/* Volume of the family's ellipsoid over the spheroid's, in double */
+static double family_volume(double a, double c, double d) {
+    double a2 = a * a, eps = 2 * a2 / (1 + a2), eta = sqrt(fmax(1 - d, 0));
+    double k = 1 + (1 - eps) * (1 - c * c) * (1 + eta) / (d / (1 + eta) + 2 * eta * c * c);
+    double g = d * (2 - eps) / (2 * d - eps);
+    return g * g / sqrt(k);
+}
+
+static void test_tightness(void) {
+    test_bound mean = bound_of("lobe_ggx_tightness", "mean"), worst = bound_of("lobe_ggx_tightness", "worst");
+    double sum = 0;
+    int i, k;
+    for (i = 0; i < 2000; i++) {
+        double a = log_uniform(0.01, 1), c = uniform(), eps = 2 * a * a / (1 + a * a), best = 1, loss;
+        double h = (1 - eps) * (1 - c * c);
+        float d = lobe_ggx_tightness((float)h, (float)eps, (float)(c * c), (float)sqrt(1 - c * c));
+        for (k = 0; k <= 2000; k++) best = fmin(best, family_volume(a, c, pow(0.51 * eps, k / 2000.0)));
+        loss = family_volume(a, c, (double)d) / best - 1;
+        begin();
+        record(a);
+        record(c);
+        within(&worst, loss, 0, 1);
+        sum += loss;
+    }
+    begin();
+    within(&mean, sum / 2000, 0, 1);
+    test_report(&mean);
+    test_report(&worst);
 }
 
 /* The corrected spheroid of the larger alpha: its range times the larger alpha over the mean one */
@@ -1475,6 +1505,7 @@ const test_case ggx_bound_tests[] = {{"ggx_ndf", test_ndf},
                                      {"ggx_bound_ellipsoid_aniso", test_ellipsoid_aniso},
                                      {"ggx_bound_spheres", test_spheres},
                                      {"ggx_bound_volumes", test_volumes},
+                                     {"ggx_tightness", test_tightness},
                                      {"ggx_bound_volumes_aniso", test_volumes_aniso},
                                      {"ggx_bound_diffuse", test_diffuse},
                                      {"ggx_boxes", test_boxes},
