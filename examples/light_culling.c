@@ -119,6 +119,7 @@ typedef struct {
     float shaded[TILE_PIXELS], inside[TILE_PIXELS], accepted[TILE_PIXELS]; /* glossy lights */
     ggx_tile frustum;
     float near_depth[2], far_depth[2];
+    vec3 box_low[2], box_high[2]; /* of each cluster's pixels, in the scene's axes */
 } tile;
 
 typedef struct {
@@ -150,12 +151,22 @@ static void put_pixel(tile *t, const buffer *view, int index) {
     t->normal[2][i] = hit->normal.z;
 }
 
+static vec3 lower(vec3 a, vec3 b) {
+    return lobe_vector(lobe_min(a.x, b.x), lobe_min(a.y, b.y), lobe_min(a.z, b.z));
+}
+
+static vec3 higher(vec3 a, vec3 b) {
+    return lobe_vector(lobe_max(a.x, b.x), lobe_max(a.y, b.y), lobe_max(a.z, b.z));
+}
+
 /* Puts the pixels of a square of a subset into a tile: first those before the middle of its depths, then the rest. */
 static void fill_tile(tile *t, const buffer *view, const view_frame *frame, int subset, int left, int top, int edge) {
     float low = SCENE_FAR, high = 0, middle;
     int pass, x, y;
     t->subset = subset;
     t->near_depth[0] = t->far_depth[0] = SCENE_FAR;
+    t->box_low[0] = t->box_low[1] = lobe_vector(SCENE_FAR, SCENE_FAR, SCENE_FAR);
+    t->box_high[0] = t->box_high[1] = lobe_vector(-SCENE_FAR, -SCENE_FAR, -SCENE_FAR);
     t->frustum.left = t->frustum.bottom = SCENE_FAR;
     t->frustum.right = t->frustum.top = -SCENE_FAR;
     for (pass = 0; pass < 3; pass++) {
@@ -179,6 +190,8 @@ static void fill_tile(tile *t, const buffer *view, const view_frame *frame, int 
                     depth = pass == 1 ? t->near_depth : t->far_depth;
                     depth[0] = lobe_min(depth[0], p.z * 0.999999f);
                     depth[1] = lobe_max(depth[1], p.z * 1.000001f);
+                    t->box_low[pass - 1] = lower(t->box_low[pass - 1], pixel->hit.position);
+                    t->box_high[pass - 1] = higher(t->box_high[pass - 1], pixel->hit.position);
                     put_pixel(t, view, row * view->width + column);
                 }
             }
@@ -220,7 +233,7 @@ static tile *make_reference_tiles(const buffer *view, int *count) {
 
 /* The volumes of a list's lights in the camera's frame, and their stretched spaces as planes */
 typedef struct {
-    ggx_ellipsoid *ellipsoids;
+    ggx_ellipsoid *ellipsoids, *in_scene; /* the latter in the scene's frame */
     vec3 *positions, *normals;
     float *plane[10];
     int *swapped;
@@ -232,6 +245,7 @@ static volume_list allocate_volumes(int count) {
     volume_list v;
     int k;
     v.ellipsoids = (ggx_ellipsoid *)allocate((size_t)count, sizeof *v.ellipsoids);
+    v.in_scene = (ggx_ellipsoid *)allocate((size_t)count, sizeof *v.in_scene);
     v.positions = (vec3 *)allocate((size_t)count, sizeof *v.positions);
     v.normals = (vec3 *)allocate((size_t)count, sizeof *v.normals);
     v.swapped = (int *)allocate((size_t)count, sizeof *v.swapped);
@@ -242,6 +256,7 @@ static volume_list allocate_volumes(int count) {
 static void free_volumes(volume_list *v) {
     int k;
     free(v->ellipsoids);
+    free(v->in_scene);
     free(v->positions);
     free(v->normals);
     free(v->swapped);
@@ -279,9 +294,11 @@ static void bound_lights(const light_list *list, light_kind kind, volume which, 
             const vpl *l = &list->lights[i];
             const vec3 none = {0, 0, 0};
             view_frame turn = *frame;
-            ggx_ellipsoid e = ggx_ellipsoid_transform(bound(l, kind, which, delta), frame->rows, frame->eye);
+            ggx_ellipsoid in_scene = bound(l, kind, which, delta);
+            ggx_ellipsoid e = ggx_ellipsoid_transform(in_scene, frame->rows, frame->eye);
             ggx_stretched s = ggx_stretch_ellipsoid(e);
             v->ellipsoids[i] = e;
+            v->in_scene[i] = in_scene;
             v->positions[i] = to_view(frame, l->position);
             turn.eye = none;
             v->normals[i] = to_view(&turn, l->normal);
@@ -323,6 +340,13 @@ static inline ggx_stretched stretched_of(const volume_list *v, int k) {
     return s;
 }
 
+/* Whether an ellipsoid meets the box around a cluster's pixels: on floors and walls it is flat. */
+static int hits_pixels(const ggx_ellipsoid *e, const tile *t, int cluster) {
+    const vec3 low = t->box_low[cluster], high = t->box_high[cluster];
+    return ggx_ellipsoid_hits_box(*e, lobe_scale(lobe_add(low, high), 0.5f),
+                                  lobe_scale(lobe_sub(high, low), 0.500001f));
+}
+
 static void cull_tile(const tile *t, const light_list *list, const volume_list *v, int closer, int *entries,
                       int *count) {
     const ggx_tile frustum = t->frustum;
@@ -347,11 +371,11 @@ static void cull_tile(const tile *t, const light_list *list, const volume_list *
             const vec3 q = v->positions[k], n = v->normals[k];
             const ggx_stretched st = stretched_of(v, k);
             if (!ggx_ellipsoid_hits_sides(v->ellipsoids[k], frustum)) continue;
-            if ((hit & 1) &&
-                !(ggx_tile_above(q, n, frustum, near0, near1) && ggx_stretched_hits_frustum(st, frustum, near0, near1)))
+            if ((hit & 1) && !(ggx_tile_above(q, n, frustum, near0, near1) && hits_pixels(&v->in_scene[k], t, 0) &&
+                               ggx_stretched_hits_frustum(st, frustum, near0, near1)))
                 hit &= 2;
-            if ((hit & 2) &&
-                !(ggx_tile_above(q, n, frustum, far0, far1) && ggx_stretched_hits_frustum(st, frustum, far0, far1)))
+            if ((hit & 2) && !(ggx_tile_above(q, n, frustum, far0, far1) && hits_pixels(&v->in_scene[k], t, 1) &&
+                               ggx_stretched_hits_frustum(st, frustum, far0, far1)))
                 hit &= 1;
         }
         if (hit) entries[(*count)++] = 4 * k + hit;
