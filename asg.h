@@ -388,14 +388,16 @@ LOBE_API float asg_product_integral(asg_lobe a, asg_lobe b) {
 */
 LOBE_API float asg_product_integral_xu(asg_lobe a, asg_lobe b) {
     lobe_asg_pair k = lobe_asg_pair_of(a, b);
-    float low = 0, gap;
+    float low = 0, gap, inverse = 1 / (k.m2 + 1);
     int step;
     LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && b.sharpness_x >= 0 && b.sharpness_y >= 0);
-    /* the smallest eigenvalue, from 0 by Laguerre's steps: p = det(Q - low I), p1 = -p', p2 = p'' / 2 */
+    /* the smallest eigenvalue, from 0 by Laguerre's steps: p = det(Q - low I), p1 = -p', p2 = p'' / 2, all over m2, so
+       that squares do not overflow */
     for (step = 0; step < 2; step++) {
-        float p = ((k.trace - low) * low - k.m2) * low + k.det;
-        float p1 = k.m2 - (2 * k.trace - 3 * low) * low, p2 = k.trace - 3 * low;
-        low = lobe_at_least(low + 3 * p / (p1 + 2 * sqrtf(lobe_at_least(p1 * p1 - 3 * p * p2, 0)) + LOBE_TINY), 0);
+        float p = inverse * (((k.trace - low) * low - k.m2) * low + k.det);
+        float p1 = inverse * (k.m2 - (2 * k.trace - 3 * low) * low), p2 = inverse * (k.trace - 3 * low);
+        low += 3 * p / (p1 + 2 * sqrtf(lobe_at_least(p1 * p1 - 3 * p * p2, 0)) + LOBE_TINY);
+        low = lobe_at_most(lobe_at_least(low, 0), 0.333333333f * k.trace); /* it is, but for rounding of equal ones */
     }
     gap = lobe_at_least(k.m2 - (2 * k.trace - 3 * low) * low, 1e-8f); /* product of the other two, less low each */
     return LOBE_PI * lobe_asg_exp(a.log_amplitude + b.log_amplitude - low) / sqrtf(gap) *

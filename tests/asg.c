@@ -1358,27 +1358,15 @@ static float shade(const shading *s) {
                              (float)s->alpha, s->lobe);
 }
 
-/* The factors of the incoming lobe in double: sharpness, axis and log of the peak without inverse_variance /
-   (2 pi). */
 static double incoming(const shading *s, double axis[3], double *log_peak, double *inverse_variance) {
-    double offset[3], emission[3], extent, sharpness = (double)s->light.emission[VSGL_SPECULAR].sharpness, size,
-                                           chord = 0;
+    double offset[3], emission[3];
     int k;
     widen(s->light.position, offset);
     widen(s->light.emission[VSGL_SPECULAR].axis, emission);
-    normalize(emission);
     for (k = 0; k < 3; k++) offset[k] -= s->point[k];
     *inverse_variance = 1 / fmax((double)s->light.variance, 1e-20);
-    extent = dot(offset, offset) * *inverse_variance;
-    normalize(offset);
-    for (k = 0; k < 3; k++) {
-        axis[k] = extent * offset[k] - sharpness * emission[k];
-        chord += pow(offset[k] + emission[k], 2);
-    }
-    size = sqrt(dot(axis, axis));
-    *log_peak = -extent * sharpness * chord / (size + extent + sharpness);
-    normalize(axis);
-    return size;
+    return exact_incoming(offset, emission, (double)s->light.emission[VSGL_SPECULAR].sharpness, *inverse_variance, axis,
+                          log_peak);
 }
 
 /* Section 4.2 of 000 in double. */

@@ -53,6 +53,27 @@ static inline double distance(vec a, vec b) {
     return length(combine(1, a, -1, b));
 }
 
+static inline vec vec_of(const double w[3]) {
+    vec v;
+    v.x = w[0];
+    v.y = w[1];
+    v.z = w[2];
+    return v;
+}
+
+static inline vec random_direction(void) {
+    double d[3];
+    test_direction(&test_random, d);
+    return vec_of(d);
+}
+
+/* A direction at an angle from another, anywhere around it */
+static inline vec turned(vec a, double angle) {
+    vec t = random_direction();
+    t = unit(combine(1, t, -dot(t, a), a));
+    return combine(cos(angle), a, sin(angle), t);
+}
+
 static inline double exact_phi(double x) {
     return x < 1e-9 ? 1 - x / 2 : -expm1(-x) / x;
 }

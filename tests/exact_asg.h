@@ -68,6 +68,28 @@ static inline double exact_eval(const exact_asg *a, const double w[3]) {
     return fmax(dot(w, a->z), 0) * exp(a->log_amplitude - a->lx * x * x - a->ly * y * y);
 }
 
+/* Eq. 7 of 000, the product of a light's extent and its emission: axis, and logarithm of the peak but for the factor
+   inverse_variance / (2 pi); returns the sharpness. The offset is the light's from the point. */
+static inline double exact_incoming(const double offset[3], const double emission[3], double sharpness,
+                                    double inverse_variance, double axis[3], double *log_peak) {
+    double away[3], lobe[3], extent = dot(offset, offset) * inverse_variance, size, chord = 0;
+    int k;
+    for (k = 0; k < 3; k++) {
+        away[k] = offset[k];
+        lobe[k] = emission[k];
+    }
+    normalize(away);
+    normalize(lobe);
+    for (k = 0; k < 3; k++) {
+        axis[k] = extent * away[k] - sharpness * lobe[k];
+        chord += pow(away[k] + lobe[k], 2);
+    }
+    size = sqrt(dot(axis, axis));
+    *log_peak = -extent * sharpness * chord / (size + extent + sharpness);
+    normalize(axis);
+    return size;
+}
+
 /* A lobe around a direction, its x axis turned by an angle. */
 static inline asg_lobe lobe_around(const double z[3], double turn, double lx, double ly) {
     asg_lobe a;

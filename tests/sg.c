@@ -81,16 +81,6 @@ static double log_uniform(double low, double high) {
     return record((double)(float)test_log_uniform(&test_random, low, high));
 }
 
-static vec random_direction(void) {
-    double d[3];
-    vec v;
-    test_direction(&test_random, d);
-    v.x = d[0];
-    v.y = d[1];
-    v.z = d[2];
-    return v;
-}
-
 /* A float direction near a given one, of a length anywhere within 1e-7 of 1. */
 static lobe_vec3 nearly_unit(vec v) {
     lobe_vec3 w;
@@ -98,12 +88,6 @@ static lobe_vec3 nearly_unit(vec v) {
     while (fabs(length(wide(w)) - 1) > 1e-7);
     record_vector(w);
     return w;
-}
-
-static vec turned(vec a, double angle) {
-    vec t = random_direction();
-    t = unit(combine(1, t, -dot(t, a), a));
-    return combine(cos(angle), a, sin(angle), t);
 }
 
 static lobe_vec3 random_axis(void) {
@@ -269,14 +253,6 @@ typedef struct {
     sg_lobe a, b;
     vec normal;
 } integrand;
-
-static vec vec_of(const double w[3]) {
-    vec v;
-    v.x = w[0];
-    v.y = w[1];
-    v.z = w[2];
-    return v;
-}
 
 static double product_of_lobes(const double w[3], const void *context) {
     const integrand *f = (const integrand *)context;

@@ -52,7 +52,7 @@ static void draw_light_over(float *in, double low, double high) {
         in[SG_B + 3] = (float)lg;
         in[SG_B + 4] = 0;
         a = asg_in(in, 1, ASG_A);
-        g = asg_light_in(in, 1);
+        g = lobe_in(in, 1, SG_B);
         ahead = g;
         ahead.axis = a.z;
     } while (!(asg_sg_integral(a, g) > 0.01f * asg_sg_integral(a, ahead)));
@@ -132,7 +132,7 @@ static double relative(const double *wanted, const float *out) {
 static void exact_value(const float *in, double *wanted) {
     exact_asg a = exact_of(asg_in(in, 1, ASG_A));
     double dir[3], e, l = fmax(a.lx, a.ly);
-    widen(asg_vector_in(in, 1, SG_B), dir);
+    widen(vector_in(in, 1, SG_B), dir);
     wanted[0] = exact_eval(&a, dir);
     e = fabs(log(wanted[0] / dot(dir, a.z)));
     wanted[1] = wanted[0] * TEST_EPSILON * (1 + e + sqrt(l * e) + TEST_EPSILON * l);
@@ -143,7 +143,7 @@ static void exact_whole(const float *in, double *wanted) {
 }
 
 static void exact_light(const float *in, double *wanted) {
-    sg_lobe g = asg_light_in(in, 1);
+    sg_lobe g = lobe_in(in, 1, SG_B);
     wanted[0] = wanted[1] = reference_product(asg_in(in, 1, ASG_A), NULL, &g);
 }
 
@@ -183,9 +183,9 @@ static double convolved_error(const double *wanted, const float *out) {
 static void exact_reflection(const float *in, double hx, double hy, double *wanted) {
     double n[3], t[3], b[3], wi[3], across[3], along[3], cosine, px, py, qx, qy, middle, radius, size;
     int k;
-    widen(asg_vector_in(in, 1, SURFACE_NORMAL), n);
-    widen(asg_vector_in(in, 1, SURFACE_TANGENT), t);
-    widen(asg_vector_in(in, 1, SURFACE_WI), wi);
+    widen(vector_in(in, 1, SURFACE_NORMAL), n);
+    widen(vector_in(in, 1, SURFACE_TANGENT), t);
+    widen(vector_in(in, 1, SURFACE_WI), wi);
     cosine = dot(n, wi) / (sqrt(dot(n, n) * dot(wi, wi)));
     for (k = 0; k < 3; k++) wanted[k] = 2 * cosine * n[k] - wi[k];
     cross(n, wi, across);
@@ -230,32 +230,21 @@ static double lobe_error(const double *wanted, const float *out) {
 
 /* Section 4.2 of 000 in double, with the lobe as floats give it */
 static void exact_specular(const float *in, double *wanted) {
-    exact_asg a = exact_of(
-        asg_ggx_lobe(asg_vector_in(in, 1, SURFACE_NORMAL), asg_vector_in(in, 1, SURFACE_WI), in[SURFACE_ALPHA_X]));
-    double n[3], wi[3], offset[3], emission[3], axis[3], extent, variance = (double)in[LIGHT_VARIANCE], chord = 0;
-    double sharpness = (double)in[LIGHT_SHARPNESS], size, nu, x, y, e, co, ci, a2, smith;
-    int k;
-    widen(asg_vector_in(in, 1, SURFACE_NORMAL), n);
-    widen(asg_vector_in(in, 1, SURFACE_WI), wi);
-    widen(asg_vector_in(in, 1, LIGHT_POSITION), offset);
-    widen(asg_vector_in(in, 1, LIGHT_EMISSION), emission);
-    normalize(emission);
-    extent = dot(offset, offset) / variance;
-    normalize(offset);
-    for (k = 0; k < 3; k++) {
-        axis[k] = extent * offset[k] - sharpness * emission[k];
-        chord += pow(offset[k] + emission[k], 2);
-    }
-    size = sqrt(dot(axis, axis));
-    normalize(axis);
-    nu = 0.5 * size;
+    exact_asg a =
+        exact_of(asg_ggx_lobe(vector_in(in, 1, SURFACE_NORMAL), vector_in(in, 1, SURFACE_WI), in[SURFACE_ALPHA_X]));
+    double n[3], wi[3], offset[3], emission[3], axis[3], variance = (double)in[LIGHT_VARIANCE], log_peak;
+    double nu, x, y, e, co, ci, a2, smith;
+    widen(vector_in(in, 1, SURFACE_NORMAL), n);
+    widen(vector_in(in, 1, SURFACE_WI), wi);
+    widen(vector_in(in, 1, LIGHT_POSITION), offset);
+    widen(vector_in(in, 1, LIGHT_EMISSION), emission);
+    nu = 0.5 * exact_incoming(offset, emission, (double)in[LIGHT_SHARPNESS], 1 / variance, axis, &log_peak);
     x = dot(axis, a.x);
     y = dot(axis, a.y);
     co = fmax(dot(axis, n), 1e-30);
     ci = dot(wi, n);
     a2 = pow((double)in[SURFACE_ALPHA_X], 2);
-    e = -extent * sharpness * chord / (size + extent + sharpness) - a.lx * nu / (a.lx + nu) * x * x -
-        a.ly * nu / (a.ly + nu) * y * y;
+    e = log_peak - a.lx * nu / (a.lx + nu) * x * x - a.ly * nu / (a.ly + nu) * y * y;
     smith = 0.5 / (co * sqrt(a2 + (1 - a2) * ci * ci) + ci * sqrt(a2 + (1 - a2) * co * co));
     wanted[0] = exp(e) * 0.5 / variance / sqrt((a.lx + nu) * (a.ly + nu)) * fmax(dot(axis, a.z), 0) * co * smith /
                 (REFERENCE_PI * a2);

@@ -3,7 +3,7 @@
 #define ASG_COLUMNS_H
 
 #include "../../asg.h"
-#include "bench.h"
+#include "sg_columns.h"
 
 /* Two ASGs; an ASG and an SG or a direction */
 enum { ASG_A = 0, ASG_B = 12, SG_B = 12 };
@@ -21,34 +21,22 @@ enum {
     LIGHT_VARIANCE
 };
 
-static inline lobe_vec3 asg_vector_in(const float *in, int stride, int column) {
-    return lobe_vector(in[column * stride], in[(column + 1) * stride], in[(column + 2) * stride]);
-}
-
 static inline asg_lobe asg_in(const float *in, int stride, int column) {
     asg_lobe a;
-    a.x = asg_vector_in(in, stride, column);
-    a.y = asg_vector_in(in, stride, column + 3);
-    a.z = asg_vector_in(in, stride, column + 6);
+    a.x = vector_in(in, stride, column);
+    a.y = vector_in(in, stride, column + 3);
+    a.z = vector_in(in, stride, column + 6);
     a.sharpness_x = in[(column + 9) * stride];
     a.sharpness_y = in[(column + 10) * stride];
     a.log_amplitude = in[(column + 11) * stride];
     return a;
 }
 
-static inline sg_lobe asg_light_in(const float *in, int stride) {
-    sg_lobe g;
-    g.axis = asg_vector_in(in, stride, SG_B);
-    g.sharpness = in[(SG_B + 3) * stride];
-    g.log_amplitude = in[(SG_B + 4) * stride];
-    return g;
-}
-
 static inline vsgl asg_vsgl_in(const float *in, int stride) {
     vsgl v;
-    v.position = asg_vector_in(in, stride, LIGHT_POSITION);
+    v.position = vector_in(in, stride, LIGHT_POSITION);
     v.variance = in[LIGHT_VARIANCE * stride];
-    v.emission[0].axis = asg_vector_in(in, stride, LIGHT_EMISSION);
+    v.emission[0].axis = vector_in(in, stride, LIGHT_EMISSION);
     v.emission[0].sharpness = in[LIGHT_SHARPNESS * stride];
     v.emission[0].log_amplitude = 0;
     v.emission[1] = v.emission[0];

@@ -7,10 +7,10 @@
 #define FROM &in->column[0][i], BENCH_COUNT
 #define A asg_in(FROM, ASG_A)
 #define B asg_in(FROM, ASG_B)
-#define G asg_light_in(FROM)
-#define NORMAL asg_vector_in(FROM, SURFACE_NORMAL)
-#define TANGENT asg_vector_in(FROM, SURFACE_TANGENT)
-#define WI asg_vector_in(FROM, SURFACE_WI)
+#define G lobe_in(FROM, SG_B)
+#define NORMAL vector_in(FROM, SURFACE_NORMAL)
+#define TANGENT vector_in(FROM, SURFACE_TANGENT)
+#define WI vector_in(FROM, SURFACE_WI)
 #define ALPHA_X in->column[SURFACE_ALPHA_X][i]
 #define ALPHA_Y in->column[SURFACE_ALPHA_Y][i]
 #define OUT(k) out->column[k][i]

@@ -12,16 +12,6 @@ static double log_uniform(double low, double high) {
     return test_log_uniform(&test_random, low, high);
 }
 
-static vec direction(void) {
-    double d[3];
-    vec v;
-    test_direction(&test_random, d);
-    v.x = d[0];
-    v.y = d[1];
-    v.z = d[2];
-    return v;
-}
-
 static void put(float *in, vec v) {
     lobe_vec3 w = narrow(v);
     in[0] = w.x;
@@ -29,20 +19,14 @@ static void put(float *in, vec v) {
     in[2] = w.z;
 }
 
-static vec turned(vec a, double angle) {
-    vec t = direction();
-    t = unit(combine(1, t, -dot(t, a), a));
-    return combine(cos(angle), a, sin(angle), t);
-}
-
 /* Two lobes of any sharpness; the second axis the same, opposed, anywhere, or on the flank of the blunter lobe, where
    the values are that count. */
-static void draw_pair_over(float *in, double low, double high) {
-    vec a = direction(), b = a;
-    double la = log_uniform(low, high), lb = log_uniform(low, high), least = la < lb ? la : lb, kind = 8 * uniform();
+static void draw_pair(float *in) {
+    vec a = random_direction(), b = a;
+    double la = log_uniform(1e-8, 1e10), lb = log_uniform(1e-8, 1e10), least = la < lb ? la : lb, kind = 8 * uniform();
     if (kind < 1) b = combine(-1, a, 0, a);
     if (kind >= 2) b = turned(a, fmin(REFERENCE_PI, log_uniform(0.1, 6) / sqrt(least + 0.1)));
-    if (kind >= 7) b = direction();
+    if (kind >= 7) b = random_direction();
     put(in + LOBE_A, a);
     in[LOBE_A + 3] = (float)la;
     put(in + LOBE_B, b);
@@ -51,16 +35,12 @@ static void draw_pair_over(float *in, double low, double high) {
     in[UNIFORM_V] = (float)uniform();
 }
 
-static void draw_pair(float *in) {
-    draw_pair_over(in, 1e-8, 1e10);
-}
-
 static void draw_flank(float *in) { /* where a lobe crosses the horizon, in three of four draws */
-    vec a = direction();
+    vec a = random_direction();
     double l = log_uniform(1e-3, 1e6), angle = REFERENCE_PI / 2 + (2 * uniform() - 1) * 4 / sqrt(1 + l);
     put(in + LOBE_A, a);
     in[LOBE_A + 3] = (float)l;
-    put(in + LOBE_B, uniform() < 0.25 ? direction() : turned(a, fmin(REFERENCE_PI, fmax(0, angle))));
+    put(in + LOBE_B, uniform() < 0.25 ? random_direction() : turned(a, fmin(REFERENCE_PI, fmax(0, angle))));
 }
 
 static void draw_cosine(float *in) {
@@ -79,7 +59,7 @@ static void draw_length(float *in) { /* of a mean direction */
 }
 
 static void draw_surface(float *in) {
-    vec normal = direction();
+    vec normal = random_direction();
     put(in + VPL_NORMAL, normal);
     put(in + VPL_WI, turned(normal, 1.5 * uniform()));
     in[VPL_ALPHA] = (float)log_uniform(1e-4, 1);
@@ -91,15 +71,15 @@ static void draw_exponent(float *in) {
 }
 
 static void draw_two_vpls(float *in) { /* the same but for their places, 1e4 away and within .01 to 10 of each other */
-    vec place = direction();
+    vec place = random_direction();
     draw_surface(in);
     place = combine(1e4, place, 0, place);
     put(in + VPL_POSITION, place);
-    put(in + VPL_POINT, combine(1, place, log_uniform(0.01, 10), direction()));
+    put(in + VPL_POINT, combine(1, place, log_uniform(0.01, 10), random_direction()));
 }
 
 static void draw_light(float *in) { /* lit places where the lobe is above e^-20, or so */
-    vec away, normal, position = direction();
+    vec away, normal, position = random_direction();
     double alpha, cosine;
     draw_surface(in);
     alpha = (double)in[VPL_ALPHA];
@@ -115,8 +95,8 @@ static void draw_light(float *in) { /* lit places where the lobe is above e^-20,
 }
 
 static void draw_sphere(float *in) {
-    vec away = direction();
-    put(in + VPL_POSITION, direction());
+    vec away = random_direction();
+    put(in + VPL_POSITION, random_direction());
     put(in + VPL_POINT, combine(1, wide(vector_in(in, 1, VPL_POSITION)), log_uniform(1.001, 1e4), away));
     in[VPL_VARIANCE] = 1; /* the radius */
 }
