@@ -80,12 +80,6 @@ static vec cross(vec a, vec b) {
     return of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-static vec random_direction(void) {
-    double d[3];
-    test_direction(&test_random, d);
-    return of(d[0], d[1], d[2]);
-}
-
 /* A float direction near a given one, of a length anywhere within 1e-7 of 1. */
 static lobe_vec3 nearly_unit(vec v) {
     lobe_vec3 w;

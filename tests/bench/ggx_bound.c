@@ -10,16 +10,6 @@ static double uniform(void) {
     return test_uniform(&test_random);
 }
 
-static vec direction(void) {
-    double d[3];
-    vec v;
-    test_direction(&test_random, d);
-    v.x = d[0];
-    v.y = d[1];
-    v.z = d[2];
-    return v;
-}
-
 static void put(float *in, vec v) {
     lobe_vec3 w = narrow(v);
     in[0] = w.x;
@@ -27,18 +17,12 @@ static void put(float *in, vec v) {
     in[2] = w.z;
 }
 
-static vec turned(vec a, double angle) {
-    vec t = direction();
-    t = unit(combine(1, t, -dot(t, a), a));
-    return combine(cos(angle), a, sin(angle), t);
-}
-
 /* A light of any incidence, and a direction near the mirror's; for the NDF the direction is the half vector. */
 static void draw_light(float *in, double low, int half_vector) {
-    vec n = direction(), wi = turned(n, acos(0.02 + 0.98 * uniform())), h, t = turned(n, REFERENCE_PI / 2);
+    vec n = random_direction(), wi = turned(n, acos(0.02 + 0.98 * uniform())), h, t = turned(n, REFERENCE_PI / 2);
     double alpha = test_log_uniform(&test_random, low, 1);
     h = turned(n, atan(alpha * test_log_uniform(&test_random, 1e-2, 10)));
-    put(in + VPL_AT, combine(10, direction(), 0, n));
+    put(in + VPL_AT, combine(10, random_direction(), 0, n));
     put(in + VPL_FRONT, n);
     put(in + VPL_TO_LIGHT, wi);
     put(in + VPL_OUT, half_vector ? h : combine(2 * dot(wi, h), h, -1, wi));
@@ -67,7 +51,7 @@ static void draw_isotropic(float *in) {
 /* ---- what is exact ---- */
 
 static vec vector_of(const float *in, int column) {
-    return unit(wide(ggx_vector_in(in, 1, column)));
+    return unit(wide(vector_in(in, 1, column)));
 }
 
 static double exact_density(vec h, vec n, double a) {

@@ -3,7 +3,7 @@
 #define GGX_BOUND_COLUMNS_H
 
 #include "../../ggx_bound.h"
-#include "bench.h"
+#include "sg_columns.h"
 
 /* A light on a surface, and a direction out of it */
 enum {
@@ -26,16 +26,12 @@ enum { SHAPE_ELLIPSOID = 0, SHAPE_BOX = 15, SHAPE_TILE = 15, SHAPE_DEPTH = 19 };
 /* Its stretched space, and a tile */
 enum { SHAPE_STRETCHED = 0, SHAPE_FRUSTUM = 11, SHAPE_RANGE = 15 };
 
-static inline lobe_vec3 ggx_vector_in(const float *in, int stride, int column) {
-    return lobe_vector(in[column * stride], in[(column + 1) * stride], in[(column + 2) * stride]);
-}
-
 static inline ggx_ellipsoid ggx_ellipsoid_in(const float *in, int stride) {
     ggx_ellipsoid e;
-    e.center = ggx_vector_in(in, stride, SHAPE_ELLIPSOID);
-    e.axis[0] = ggx_vector_in(in, stride, SHAPE_ELLIPSOID + 3);
-    e.axis[1] = ggx_vector_in(in, stride, SHAPE_ELLIPSOID + 6);
-    e.axis[2] = ggx_vector_in(in, stride, SHAPE_ELLIPSOID + 9);
+    e.center = vector_in(in, stride, SHAPE_ELLIPSOID);
+    e.axis[0] = vector_in(in, stride, SHAPE_ELLIPSOID + 3);
+    e.axis[1] = vector_in(in, stride, SHAPE_ELLIPSOID + 6);
+    e.axis[2] = vector_in(in, stride, SHAPE_ELLIPSOID + 9);
     e.radius[0] = in[(SHAPE_ELLIPSOID + 12) * stride];
     e.radius[1] = in[(SHAPE_ELLIPSOID + 13) * stride];
     e.radius[2] = in[(SHAPE_ELLIPSOID + 14) * stride];
@@ -59,7 +55,7 @@ static inline ggx_stretched ggx_stretched_in(const float *in, int stride) {
     s.yy = in[(SHAPE_STRETCHED + 3) * stride];
     s.yz = in[(SHAPE_STRETCHED + 4) * stride];
     s.zz = in[(SHAPE_STRETCHED + 5) * stride];
-    s.center = ggx_vector_in(in, stride, SHAPE_STRETCHED + 6);
+    s.center = vector_in(in, stride, SHAPE_STRETCHED + 6);
     s.size = in[(SHAPE_STRETCHED + 9) * stride];
     s.swapped = in[(SHAPE_STRETCHED + 10) * stride] > 0;
     return s;

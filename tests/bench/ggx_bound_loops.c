@@ -6,7 +6,7 @@
 
 #define FROM &in->column[0][i], BENCH_COUNT
 #define IN(k) in->column[k][i]
-#define VECTOR(k) ggx_vector_in(FROM, k)
+#define VECTOR(k) vector_in(FROM, k)
 #define OUT(k) out->column[k][i]
 #define LIGHT VECTOR(VPL_AT), VECTOR(VPL_FRONT), VECTOR(VPL_TO_LIGHT), IN(VPL_ALPHA_X)
 #define RANGE IN(VPL_FLUX), IN(VPL_FRESNEL), IN(VPL_DELTA), IN(VPL_XI)
