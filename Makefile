@@ -15,7 +15,7 @@ OPENMP := $(call has,-fopenmp)
 endif
 COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS)
 
-HEADERS = sg.h asg.h fis.h
+HEADERS = sg.h asg.h fis.h ggx_bound.h
 COMMON = $(wildcard examples/common/*.c)
 TESTS = $(wildcard tests/*.c)
 
@@ -24,6 +24,9 @@ run: $(BUILD)/vsgl
 
 glossy_plane: $(BUILD)/glossy_plane
 	$(BUILD)/glossy_plane $(ARGS)
+
+light_culling: $(BUILD)/light_culling
+	$(BUILD)/light_culling $(ARGS)
 
 test: $(BUILD)/tests headers readme vectors
 	$(BUILD)/tests $(ARGS)
@@ -34,6 +37,7 @@ bench: $(BUILD)/bench
 help:
 	@echo 'make           builds and runs the main example: one-bounce glossy indirect light (ARGS="--help" for more)'
 	@echo 'make glossy_plane  the same of an example: a sphere light over a glossy plane, as SGs and ASGs'
+	@echo 'make light_culling  glossy caustics from 65,536 lights, culled with four bounding volumes (ARGS="--help")'
 	@echo 'make test      compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
 	@echo 'make bench     speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
 	@echo 'make clean     deletes $(BUILD)/'
@@ -49,6 +53,9 @@ $(BUILD)/vsgl: examples/vsgl.c $(COMMON) $(wildcard examples/common/*.h) $(HEADE
 
 $(BUILD)/glossy_plane: examples/glossy_plane.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(OPENMP) examples/glossy_plane.c $(COMMON) -o $@ -lm
+
+$(BUILD)/light_culling: examples/light_culling.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
+	$(COMPILE) $(OPENMP) examples/light_culling.c $(COMMON) -o $@ -lm
 
 $(BUILD)/tests: $(TESTS) $(wildcard tests/*.h) $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(TESTS) -o $@ -lm
@@ -95,4 +102,4 @@ $(BUILD)/flags: force
 	@mkdir -p $(BUILD)
 	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
 
-.PHONY: run glossy_plane test bench help clean headers vectors readme force
+.PHONY: run glossy_plane light_culling test bench help clean headers vectors readme force

@@ -373,7 +373,7 @@ static void trace_reference(const scene *world, const buffer *view, const option
 }
 
 int main(int argc, char **argv) {
-    options o = {400, 300, {64, 256, 1024, 4096}, 4, 0, 512, "build/vsgl", 0};
+    options o = {400, 300, {64, 256, 1024, 4096}, 4, 0, 512, "build/vsgl", 0, 0, 0};
     const scene world = scene_room();
     buffer view, rsm;
     image direct, reference, indirect, best;

@@ -9,6 +9,7 @@
 static const char *root = ".";
 static int verbose;
 static int failures; /* of the running test */
+int test_repeat = 1;
 
 static void fail(const char *what, const double *inputs, int count) {
     int i;
@@ -79,26 +80,30 @@ int test_is_finite(float value) {
 }
 
 static void usage(FILE *to) {
-    fprintf(to, "usage: tests [--verbose] [--root DIR] [NAME]\n"
+    fprintf(to, "usage: tests [--verbose] [--long] [--root DIR] [NAME]\n"
                 "  NAME       run only the tests whose name contains it\n"
                 "  --verbose  print the largest error seen beside each bound\n"
+                "  --long     search four hundred times longer for what exceeds a bounding volume\n"
                 "  --root     where the headers are (default: .)\n");
 }
 
 int main(int argc, char **argv) {
-    const test_case *tables[3];
+    const test_case *tables[4];
     const char *wanted = "";
     int passed = 0, failed = 0, i;
     size_t table;
     tables[0] = sg_tests;
     tables[1] = asg_tests;
     tables[2] = fis_tests;
+    tables[3] = ggx_bound_tests;
     for (i = 1; i < argc; i++) {
         if (!strcmp(argv[i], "--help")) {
             usage(stdout);
             return 0;
         } else if (!strcmp(argv[i], "--verbose")) {
             verbose = 1;
+        } else if (!strcmp(argv[i], "--long")) {
+            test_repeat = 400;
         } else if (!strcmp(argv[i], "--root") && i + 1 < argc) {
             root = argv[++i];
         } else if (argv[i][0] == '-') {

@@ -50,6 +50,9 @@ double test_uniform(test_rng *rng);
 double test_log_uniform(test_rng *rng, double low, double high);
 void test_direction(test_rng *rng, double direction[3]);
 
+/* How often random searches are to be repeated: 1, many with --long. */
+extern int test_repeat;
+
 /* A generator that starts anew with each test, so that a test draws the same alone as among others. */
 extern test_rng test_random;
 
@@ -57,5 +60,6 @@ extern test_rng test_random;
 extern const test_case sg_tests[];
 extern const test_case asg_tests[];
 extern const test_case fis_tests[];
+extern const test_case ggx_bound_tests[];
 
 #endif

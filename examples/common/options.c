@@ -16,7 +16,14 @@ static void usage(FILE *to, const options *o, const char *program, const char *a
         for (i = 0; i < o->light_counts; i++) fprintf(to, "%s%d", i ? "," : "", o->lights[i]);
         fprintf(to, ")\n");
     }
-    fprintf(to, "  --samples N      samples per pixel of the reference, 2 to 1000000 (default %d)\n", o->samples);
+    if (o->samples)
+        fprintf(to, "  --samples N      samples per pixel of the reference, 2 to 1000000 (default %d)\n", o->samples);
+    if (o->delta > 0)
+        fprintf(to, "  --delta X        radiance below which lights are left out at random, 1e-9 to 1e9 (default %g)\n",
+                (double)o->delta);
+    if (o->tile)
+        fprintf(to, "  --tile N         edge of a tile, in pixels of an interleaved image, 2 to 16 (default %d)\n",
+                o->tile);
     if (!o->seedless) fprintf(to, "  --seed N         shifts every sample, 0 to 4294967295 (default %u)\n", o->seed);
     fprintf(to, "  --out PREFIX     beginning of the images' names (default %s)\n", o->out);
     fprintf(to, "  --help           prints this\n");
@@ -52,6 +59,24 @@ static int read_lights(options *o, const char *text) {
     }
 }
 
+static int read_delta(options *o, const char *text) {
+    char *end;
+    double value = strtod(text, &end);
+    if (end == text || *end || !(value >= 1e-9 && value <= 1e9)) return 0;
+    o->delta = (float)value;
+    return 1;
+}
+
+/* Whether the program has the option. */
+static int known(const options *defaults, const char *name) {
+    if (!strcmp(name, "--lights")) return defaults->light_counts > 0;
+    if (!strcmp(name, "--samples")) return defaults->samples > 0;
+    if (!strcmp(name, "--delta")) return defaults->delta > 0;
+    if (!strcmp(name, "--tile")) return defaults->tile > 0;
+    if (!strcmp(name, "--seed")) return !defaults->seedless;
+    return !strcmp(name, "--size") || !strcmp(name, "--out");
+}
+
 void options_read(options *o, int argc, char **argv, const char *about) {
     const options defaults = *o;
     int i;
@@ -62,9 +87,7 @@ void options_read(options *o, int argc, char **argv, const char *about) {
         if (!strcmp(name, "--help")) {
             usage(stdout, &defaults, argv[0], about);
             exit(0);
-        } else if (strcmp(name, "--size") && (strcmp(name, "--lights") || defaults.light_counts == 0) &&
-                   strcmp(name, "--samples") && (strcmp(name, "--seed") || defaults.seedless) &&
-                   strcmp(name, "--out")) {
+        } else if (!known(&defaults, name)) {
             fprintf(stderr, "%s: unknown argument '%s'\n", argv[0], name);
         } else if (!value) {
             fprintf(stderr, "%s: %s needs a value\n", argv[0], name);
@@ -79,6 +102,11 @@ void options_read(options *o, int argc, char **argv, const char *about) {
             } else if (!strcmp(name, "--seed")) {
                 right = number(value, 0, UINT_MAX, &n, &rest) && !*rest;
                 o->seed = (unsigned)n;
+            } else if (!strcmp(name, "--tile")) {
+                right = number(value, 2, 16, &n, &rest) && !*rest;
+                o->tile = (int)n;
+            } else if (!strcmp(name, "--delta")) {
+                right = read_delta(o, value);
             } else {
                 right = *value != 0;
                 o->out = value;

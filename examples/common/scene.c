@@ -221,6 +221,16 @@ static void add_quad(scene *world, material look, vec3 center, vec3 edge_u, vec3
     s->normal = vec3_normalize(lobe_cross(edge_u, edge_v));
 }
 
+static void aim(scene *world, vec3 position, vec3 target, float intensity, float cone) {
+    world->spot.position = position;
+    world->spot.target = target;
+    world->spot.intensity = lobe_vector(intensity, 0.93f * intensity, 0.83f * intensity);
+    world->spot.cone = cone;
+    world->spot.tangent = tanf(cone);
+    world->spot.forward = vec3_normalize(lobe_sub(target, position));
+    scene_frame(world->spot.forward, &world->spot.right, &world->spot.up);
+}
+
 scene scene_room(void) {
     scene world;
     shape *s;
@@ -256,16 +266,55 @@ scene scene_room(void) {
     s = add(&world, SHAPE_SPHERE, plain(lobe_vector(0.1f, 0.1f, 0.12f), 0.6f, 0.15f), lobe_vector(1.1f, 0.35f, 0.35f));
     s->radius = 0.35f;
 
-    world.spot.position = lobe_vector(1.6f, 1.7f, 1.7f);
-    world.spot.target = lobe_vector(-0.9f, 0.2f, 0.3f);
-    world.spot.intensity = lobe_vector(30, 28, 25);
-    world.spot.cone = 0.5f;
-    world.spot.tangent = tanf(world.spot.cone);
-    world.spot.forward = vec3_normalize(lobe_sub(world.spot.target, world.spot.position));
-    scene_frame(world.spot.forward, &world.spot.right, &world.spot.up);
-
+    aim(&world, lobe_vector(1.6f, 1.7f, 1.7f), lobe_vector(-0.9f, 0.2f, 0.3f), 30, 0.5f);
     world.eye.position = lobe_vector(0.1f, 2.2f, 4.1f);
     world.eye.target = lobe_vector(0, 0.62f, 0);
     world.eye.field_of_view = 0.78f;
+    return world;
+}
+
+scene scene_ring(float alpha) {
+    scene world;
+    shape *s;
+    const vec3 x = {3, 0, 0}, y = {0, 1.5f, 0}, z = {0, 0, 3};
+    material metal = plain(lobe_vector(0, 0, 0), 0, alpha);
+    memset(&world, 0, sizeof world);
+    metal.finishes[0].specular = lobe_vector(0.95f, 0.75f, 0.4f);
+    add_quad(&world, plain(lobe_vector(0.7f, 0.68f, 0.65f), 0, 1), lobe_vector(0, 0, 0), z, x);
+    add_quad(&world, plain(lobe_vector(0.5f, 0.55f, 0.65f), 0, 1), lobe_vector(0, 1.5f, -3), x, y);
+    s = add(&world, SHAPE_RING, metal, lobe_vector(0, 0, 0));
+    s->radius = 1.05f;
+    s->inner_radius = 1;
+    s->height = 0.6f;
+    aim(&world, lobe_vector(2.1f, 2.9f, 0.7f), lobe_vector(-0.3f, 0.25f, -0.1f), 40, 0.32f);
+    world.eye.position = lobe_vector(0.3f, 2.3f, 2.7f);
+    world.eye.target = lobe_vector(0, 0.05f, -0.1f);
+    world.eye.field_of_view = 0.75f;
+    return world;
+}
+
+scene scene_colonnade(float alpha) {
+    scene world;
+    shape *s;
+    const vec3 x = {5, 0, 0}, y = {0, 1.6f, 0}, z = {0, 0, 4};
+    const material plaster = plain(lobe_vector(0.65f, 0.62f, 0.58f), 0, 1);
+    material marble = plain(lobe_vector(0.25f, 0.24f, 0.22f), 0.5f, alpha);
+    int i;
+    memset(&world, 0, sizeof world);
+    world.center = lobe_vector(0, 1, 0);
+    add_quad(&world, marble, lobe_vector(0, 0, 1.5f), z, x);
+    add_quad(&world, plaster, lobe_vector(0, 3.2f, 1.5f), x, z);
+    add_quad(&world, plain(lobe_vector(0.6f, 0.62f, 0.68f), 0, 1), lobe_vector(0, 1.6f, -2.5f), x, y);
+    add_quad(&world, plain(lobe_vector(0.65f, 0.55f, 0.5f), 0, 1), lobe_vector(-5, 1.6f, 1.5f), y, z);
+    marble.finishes[0].diffuse = lobe_vector(0.5f, 0.5f, 0.48f);
+    for (i = 0; i < 8; i++) {
+        s = add(&world, SHAPE_COLUMN, marble, lobe_vector(-3.6f + 2.2f * (float)(i / 2), 0, i % 2 ? -1.2f : 0.7f));
+        s->radius = 0.28f;
+        s->height = 3.2f;
+    }
+    aim(&world, lobe_vector(4.8f, 1.7f, 1.9f), lobe_vector(-1.6f, 0.1f, -0.5f), 150, 0.3f);
+    world.eye.position = lobe_vector(3.9f, 1.9f, 4.2f);
+    world.eye.target = lobe_vector(-0.9f, 1.1f, -0.4f);
+    world.eye.field_of_view = 0.8f;
     return world;
 }

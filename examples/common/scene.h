@@ -64,6 +64,12 @@ typedef struct {
 /* The scene of the examples: a room with coloured walls, a glossy tiled floor and a metal ring under a spot light. */
 scene scene_room(void);
 
+/* A metal ring of that roughness on a diffuse floor, lit from the side so that a caustic falls inside of it. */
+scene scene_ring(float alpha);
+
+/* Two rows of columns on a marble floor, both of that roughness, in a hall with a low light. */
+scene scene_colonnade(float alpha);
+
 /* The nearest surface along a ray; 0 if there is none, and then only the distance is set, to SCENE_FAR. */
 #define SCENE_FAR 1e30f
 int scene_trace(const scene *world, vec3 origin, vec3 dir, surface *hit);
