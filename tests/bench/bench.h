@@ -42,6 +42,7 @@ typedef struct {
 /* One table per header, closed by a null function. */
 extern const bench_row sg_bench[];
 extern const bench_row asg_bench[];
+extern const bench_row ggx_bound_bench[];
 
 #define BENCH_DECLARE(name) bench_loop name##_scalar, name##_vector
 #define BENCH_FORM(text, name)                                                                                         \

@@ -2,8 +2,6 @@
 #include "ggx_bound_columns.h"
 #include "../exact.h"
 
-extern const bench_row ggx_bound_bench[];
-
 /* ---- inputs ---- */
 
 static double uniform(void) {

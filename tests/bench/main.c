@@ -102,7 +102,7 @@ static void usage(FILE *to) {
 }
 
 int main(int argc, char **argv) {
-    static const bench_row *const tables[] = {sg_bench, asg_bench};
+    static const bench_row *const tables[] = {sg_bench, asg_bench, ggx_bound_bench};
     const char *wanted = "";
     size_t table;
     int rows = 0, i;
