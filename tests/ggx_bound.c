@@ -4,47 +4,11 @@
 */
 #include "../ggx_bound.h"
 #include "exact.h"
+#include "record.h"
 #include "test.h"
 #include <float.h>
 
 #define PI REFERENCE_PI
-#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
-
-/* ---- the checks, and the input they print ---- */
-
-static double input[48];
-static int inputs;
-
-static void begin(void) {
-    inputs = 0;
-}
-
-static double record(double x) {
-    if (inputs < COUNT(input)) input[inputs++] = x;
-    return x;
-}
-
-static void record_vector(lobe_vec3 v) {
-    record((double)v.x);
-    record((double)v.y);
-    record((double)v.z);
-}
-
-static void within(test_bound *bound, double got, double wanted, double unit) {
-    test_within(bound, got, wanted, unit, input, inputs);
-}
-
-static void that(int condition, const char *what) {
-    test_that(condition, what, input, inputs);
-}
-
-/* A bound that follows from others, or of a reference. */
-static test_bound stated(const char *label, double limit) {
-    test_bound bound = {{0}, 0, 0, 0, 0};
-    strncpy(bound.label, label, sizeof bound.label - 1);
-    bound.limit = limit;
-    return bound;
-}
 
 static test_bound bound_of(const char *function, const char *kind) {
     return test_bound_of("ggx_bound.h", function, kind);
@@ -58,10 +22,6 @@ static double uniform(void) {
 
 static double log_uniform(double low, double high) {
     return test_log_uniform(&test_random, low, high);
-}
-
-static int pick(int count) {
-    return (int)(count * uniform());
 }
 
 static vec of(double x, double y, double z) {

@@ -4,44 +4,12 @@
 */
 #include "../sg.h"
 #include "exact.h"
+#include "record.h"
 #include "tokuyoshi.h"
 #include "test.h"
 #include <float.h>
 
 #define PI REFERENCE_PI
-#define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
-
-/* ---- the checks, and the input they print ---- */
-
-static double input[48];
-static int inputs;
-
-static double record(double x) {
-    if (inputs < COUNT(input)) input[inputs++] = x;
-    return x;
-}
-
-static void record_vector(lobe_vec3 v) {
-    record((double)v.x);
-    record((double)v.y);
-    record((double)v.z);
-}
-
-static void within(test_bound *bound, double got, double wanted, double unit) {
-    test_within(bound, got, wanted, unit, input, inputs);
-}
-
-static void that(int condition, const char *what) {
-    test_that(condition, what, input, inputs);
-}
-
-/* A bound that follows from others, or of a reference. */
-static test_bound stated(const char *label, double limit) {
-    test_bound bound = {{0}, 0, 0, 0, 0};
-    strncpy(bound.label, label, sizeof bound.label - 1);
-    bound.limit = limit;
-    return bound;
-}
 
 static unsigned bits_of(float x) {
     unsigned bits;
@@ -65,16 +33,8 @@ static int finite_lobe(sg_lobe g) {
 
 /* ---- input ---- */
 
-static void begin(void) {
-    inputs = 0;
-}
-
 static double uniform(double low, double high) {
     return record(low + (high - low) * test_uniform(&test_random));
-}
-
-static int pick(int count) {
-    return (int)(count * test_uniform(&test_random));
 }
 
 static double log_uniform(double low, double high) {
