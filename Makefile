@@ -35,13 +35,14 @@ bench: $(BUILD)/bench
 	$(BUILD)/bench $(ARGS)
 
 help:
-	@echo 'make           builds and runs the main example: one-bounce glossy indirect light (ARGS="--help" for more)'
-	@echo 'make glossy_plane  the same of an example: a sphere light over a glossy plane, as SGs and ASGs'
-	@echo 'make light_culling  glossy caustics from 65,536 lights, culled with four bounding volumes (ARGS="--help")'
-	@echo 'make test      compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
-	@echo 'make bench     speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
-	@echo 'make clean     deletes $(BUILD)/'
-	@echo 'make help      prints this'
+	@echo 'make                 builds and runs the main example: one-bounce glossy indirect light'
+	@echo 'make glossy_plane    an example: a sphere light over a glossy plane, as SGs and as ASGs'
+	@echo 'make light_culling   an example: glossy caustics from 65,536 lights, culled with four bounding volumes'
+	@echo '                     each takes ARGS="--help"'
+	@echo 'make test            compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
+	@echo 'make bench           speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
+	@echo 'make clean           deletes $(BUILD)/'
+	@echo 'make help            prints this'
 	@echo
 	@echo 'CC=clang, CFLAGS=..., BUILD=directory, WERROR=1 and ARGS=... may be added to each'
 
