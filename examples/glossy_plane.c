@@ -7,12 +7,15 @@
  integral times a coefficient, BRDF times cosine over the distribution's value, taken once at the light's center.
 */
 #include "../asg.h"
+#include "common/fail.h"
 #include "common/image.h"
 #include "common/options.h"
 #include "common/parallel.h"
 #include "common/progress.h"
 #include <stdio.h>
 #include <stdlib.h>
+
+const char *const program_name = "glossy_plane";
 
 /* ---- the scene ---- */
 
@@ -70,23 +73,13 @@ static vec3 pixel_ray(int width, int height, int column, int row) {
                                       view_slope + step * (0.5f * (float)height - (float)row - 0.5f), 1));
 }
 
-static void give_up(const char *what, const char *why) {
-    fprintf(stderr, "glossy_plane: %s: %s\n", what, why);
-    exit(1);
-}
-
-static void *allocate(size_t size) {
-    void *memory = malloc(size);
-    if (!memory) give_up("image", "not enough memory");
-    return memory;
-}
-
 static plane_view see_plane(int width, int height) {
     plane_view view;
     int i, k;
     view.count = 0;
-    view.pixel = (int *)allocate((size_t)width * (size_t)height * sizeof(int));
-    for (k = 0; k < PLANES; k++) view.plane[k] = (float *)allocate((size_t)width * (size_t)height * sizeof(float));
+    view.pixel = (int *)allocate("image", (size_t)width * (size_t)height, sizeof(int));
+    for (k = 0; k < PLANES; k++)
+        view.plane[k] = (float *)allocate("image", (size_t)width * (size_t)height, sizeof(float));
     for (i = 0; i < width * height; i++) {
         vec3 ray = pixel_ray(width, height, i % width, i / width), point;
         sg_lobe light;
@@ -290,7 +283,8 @@ int main(int argc, char **argv) {
     for (rings = 1; 3 * (rings + 1) * (rings + 1) <= o.samples; rings++) continue;
     view = see_plane(o.width, o.height);
     sheet = image_create(PANELS * (o.width + 2) - 2, 2 * MATERIALS * (o.height + 2) - 2);
-    for (k = 0; k < PANELS; k++) radiance[k] = (float *)allocate((size_t)o.width * (size_t)o.height * sizeof(float));
+    for (k = 0; k < PANELS; k++)
+        radiance[k] = (float *)allocate("image", (size_t)o.width * (size_t)o.height, sizeof(float));
     if (!sheet.pixels) give_up("image", "not enough memory");
 
     printf("%dx%d pixels a panel, %d directions a pixel of the truth\n\n", o.width, o.height, 3 * rings * rings);

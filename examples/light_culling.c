@@ -10,6 +10,7 @@
 #include "../ggx_bound.h"
 #include "common/brdf.h"
 #include "common/buffers.h"
+#include "common/fail.h"
 #include "common/image.h"
 #include "common/options.h"
 #include "common/parallel.h"
@@ -28,6 +29,8 @@ enum {
     REPEATS = 3
 };
 
+const char *const program_name = "light_culling";
+
 /* No light is nearer than this to what it shines on, in metres: else its square would make single pixels glare. */
 #define EXTENT 0.03f
 
@@ -38,18 +41,6 @@ static const char *const volume_names[VOLUMES] = {"sphere at the VPL", "enclosin
 enum { ALPHAS = 4, SCENES = 2 };
 static const float alphas[ALPHAS] = {0.4f, 0.2f, 0.1f, 0.05f};
 static const char *const scene_names[SCENES] = {"ring", "colonnade"};
-
-/* What is wrong is said, and the program ends. */
-static void give_up(const char *what, const char *why) {
-    fprintf(stderr, "light_culling: %s: %s\n", what, why);
-    exit(1);
-}
-
-static void *allocate(size_t count, size_t size) {
-    void *memory = calloc(count ? count : 1, size);
-    if (!memory) give_up("scene", "not enough memory");
-    return memory;
-}
 
 /* ---- virtual point lights ---- */
 
@@ -93,7 +84,7 @@ static void make_lights(const buffer *rsm, unsigned seed, light_list lists[KINDS
     for (kind = 0; kind < KINDS; kind++) {
         light_list *list = &lists[kind];
         int count = 0;
-        list->lights = (vpl *)allocate(RSM_SIZE * RSM_SIZE, sizeof *list->lights);
+        list->lights = (vpl *)allocate("scene", RSM_SIZE * RSM_SIZE, sizeof *list->lights);
         for (subset = 0; subset < SUBSETS; subset++) {
             list->first[subset] = count;
             for (i = 0; i < SUBSET_LIGHTS; i++) {
@@ -206,7 +197,7 @@ static tile *make_tiles(const buffer *view, const view_frame *frame, int edge, i
     tile *tiles;
     int i;
     *count = SUBSETS * each;
-    tiles = (tile *)allocate((size_t)*count, sizeof *tiles);
+    tiles = (tile *)allocate("scene", (size_t)*count, sizeof *tiles);
     PARALLEL_FOR
     for (i = 0; i < *count; i++)
         fill_tile(&tiles[i], view, frame, i / each, i % each % columns * edge, i % each / columns * edge, edge);
@@ -220,7 +211,7 @@ static tile *make_reference_tiles(const buffer *view, int *count) {
     tile *tiles, *t;
     int i;
     *count = (columns * rows + TILE_PIXELS - 1) / TILE_PIXELS;
-    tiles = (tile *)allocate((size_t)*count, sizeof *tiles);
+    tiles = (tile *)allocate("scene", (size_t)*count, sizeof *tiles);
     for (i = 0; i < columns * rows; i++) {
         int index = i / columns * REFERENCE_STEP * view->width + i % columns * REFERENCE_STEP;
         t = &tiles[i / TILE_PIXELS];
@@ -244,12 +235,12 @@ enum { PLANES = 10 };
 static volume_list allocate_volumes(int count) {
     volume_list v;
     int k;
-    v.ellipsoids = (ggx_ellipsoid *)allocate((size_t)count, sizeof *v.ellipsoids);
-    v.in_scene = (ggx_ellipsoid *)allocate((size_t)count, sizeof *v.in_scene);
-    v.positions = (vec3 *)allocate((size_t)count, sizeof *v.positions);
-    v.normals = (vec3 *)allocate((size_t)count, sizeof *v.normals);
-    v.swapped = (int *)allocate((size_t)count, sizeof *v.swapped);
-    for (k = 0; k < PLANES; k++) v.plane[k] = (float *)allocate((size_t)count, sizeof(float));
+    v.ellipsoids = (ggx_ellipsoid *)allocate("scene", (size_t)count, sizeof *v.ellipsoids);
+    v.in_scene = (ggx_ellipsoid *)allocate("scene", (size_t)count, sizeof *v.in_scene);
+    v.positions = (vec3 *)allocate("scene", (size_t)count, sizeof *v.positions);
+    v.normals = (vec3 *)allocate("scene", (size_t)count, sizeof *v.normals);
+    v.swapped = (int *)allocate("scene", (size_t)count, sizeof *v.swapped);
+    for (k = 0; k < PLANES; k++) v.plane[k] = (float *)allocate("scene", (size_t)count, sizeof(float));
     return v;
 }
 
@@ -771,8 +762,8 @@ static void show_scene(int which, const options *o) {
         make_lights(&rsm, o->seed, r.lists);
         for (kind = 0; kind < KINDS; kind++) {
             r.volumes[kind] = allocate_volumes(r.lists[kind].first[SUBSETS]);
-            r.kept[kind].counts = (int *)allocate((size_t)r.tile_count, sizeof(int));
-            r.kept[kind].entries = (int *)allocate((size_t)r.tile_count * SUBSET_LIGHTS, sizeof(int));
+            r.kept[kind].counts = (int *)allocate("scene", (size_t)r.tile_count, sizeof(int));
+            r.kept[kind].entries = (int *)allocate("scene", (size_t)r.tile_count * SUBSET_LIGHTS, sizeof(int));
         }
         if (i == 0)
             printf("%d diffuse and %d glossy VPLs, %d tiles\n", r.lists[DIFFUSE].first[SUBSETS],

@@ -10,6 +10,7 @@
 #include "../fis.h"
 #include "common/brdf.h"
 #include "common/buffers.h"
+#include "common/fail.h"
 #include "common/image.h"
 #include "common/options.h"
 #include "common/parallel.h"
@@ -21,20 +22,10 @@
 
 enum { RSM_SIZE = 512, CHANNELS = sizeof(vsgl_moments) / sizeof(float), BISECTIONS = 12, REPEATS = 5 };
 
+const char *const program_name = "vsgl";
+
 typedef enum { RULE_DENSITY, RULE_BISECTION, RULES } level_rule;
 static const char *const rule_names[RULES] = {"density", "bisection"};
-
-/* What is wrong is said, and the program ends. Images are written last, so that nothing is left behind. */
-static void give_up(const char *what, const char *why) {
-    fprintf(stderr, "vsgl: %s: %s\n", what, why);
-    exit(1);
-}
-
-static void *allocate(size_t size) {
-    void *memory = malloc(size);
-    if (!memory) give_up("scene", "not enough memory");
-    return memory;
-}
 
 /* ---- the stages, in the paper's order ---- */
 
@@ -302,12 +293,12 @@ typedef struct {
 
 static lit_scene prepare(const scene *world, const buffer *rsm) {
     lit_scene lit;
-    vsgl_moments *moments = (vsgl_moments *)allocate((size_t)RSM_SIZE * RSM_SIZE * sizeof *moments);
-    float *density = (float *)allocate((size_t)RSM_SIZE * RSM_SIZE * sizeof *density);
+    vsgl_moments *moments = (vsgl_moments *)allocate("scene", (size_t)RSM_SIZE * RSM_SIZE, sizeof *moments);
+    float *density = (float *)allocate("scene", (size_t)RSM_SIZE * RSM_SIZE, sizeof *density);
     double moments_ms[REPEATS], pyramid_ms[REPEATS];
     int i;
-    lit.memory[0] = (float *)allocate(fis_pyramid_size(RSM_SIZE, RSM_SIZE, CHANNELS) * sizeof(float));
-    lit.memory[1] = (float *)allocate(fis_pyramid_size(RSM_SIZE, RSM_SIZE, 1) * sizeof(float));
+    lit.memory[0] = (float *)allocate("scene", fis_pyramid_size(RSM_SIZE, RSM_SIZE, CHANNELS), sizeof(float));
+    lit.memory[1] = (float *)allocate("scene", fis_pyramid_size(RSM_SIZE, RSM_SIZE, 1), sizeof(float));
     for (i = 0; i < REPEATS; i++) {
         double started = progress_clock();
         find_moments(world, rsm, moments, density);
@@ -329,8 +320,8 @@ static lit_scene prepare(const scene *world, const buffer *rsm) {
 /* Renders with one rule and one number of lights, and prints the row that says how fast and how well. */
 static void render(const scene *world, const buffer *view, const lit_scene *lit, level_rule rule, int count,
                    unsigned seed, const image *reference, image *indirect) {
-    vsgl *lights = (vsgl *)allocate((size_t)count * sizeof *lights);
-    shadow_map *maps = (shadow_map *)allocate((size_t)count * sizeof *maps);
+    vsgl *lights = (vsgl *)allocate("scene", (size_t)count, sizeof *lights);
+    shadow_map *maps = (shadow_map *)allocate("scene", (size_t)count, sizeof *maps);
     double sampling_ms[REPEATS], sampling, visibility, shading, started;
     char label[64];
     int i;

@@ -11,8 +11,8 @@ typedef struct {
     int samples;
     const char *out;
     int seedless; /* 1: nothing is random, and there is no --seed */
-    float delta; /* radiance below which lights are left out at random */
-    int tile;    /* edge of the squares of pixels for which lights are culled */
+    float delta;  /* radiance below which lights are left out at random */
+    int tile;     /* edge of the squares of pixels for which lights are culled */
 } options;
 
 /* A program that gives no default for the number of lights, the samples, delta or the tile has no such option.
