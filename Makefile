@@ -16,17 +16,14 @@ endif
 COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS)
 
 HEADERS = sg.h asg.h fis.h ggx_bound.h
+EXAMPLES = vsgl glossy_plane light_culling
 COMMON = $(wildcard examples/common/*.c)
 TESTS = $(wildcard tests/*.c)
 
-run: $(BUILD)/vsgl
-	$(BUILD)/vsgl $(ARGS)
+run: vsgl
 
-glossy_plane: $(BUILD)/glossy_plane
-	$(BUILD)/glossy_plane $(ARGS)
-
-light_culling: $(BUILD)/light_culling
-	$(BUILD)/light_culling $(ARGS)
+$(EXAMPLES): %: $(BUILD)/%
+	$< $(ARGS)
 
 test: $(BUILD)/tests headers readme vectors
 	$(BUILD)/tests $(ARGS)
@@ -49,14 +46,8 @@ help:
 clean:
 	rm -rf $(BUILD)
 
-$(BUILD)/vsgl: examples/vsgl.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
-	$(COMPILE) $(OPENMP) examples/vsgl.c $(COMMON) -o $@ -lm
-
-$(BUILD)/glossy_plane: examples/glossy_plane.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
-	$(COMPILE) $(OPENMP) examples/glossy_plane.c $(COMMON) -o $@ -lm
-
-$(BUILD)/light_culling: examples/light_culling.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
-	$(COMPILE) $(OPENMP) examples/light_culling.c $(COMMON) -o $@ -lm
+$(EXAMPLES:%=$(BUILD)/%): $(BUILD)/%: examples/%.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
+	$(COMPILE) $(OPENMP) $< $(COMMON) -o $@ -lm
 
 $(BUILD)/tests: $(TESTS) $(wildcard tests/*.h) $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(TESTS) -o $@ -lm
@@ -103,4 +94,4 @@ $(BUILD)/flags: force
 	@mkdir -p $(BUILD)
 	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
 
-.PHONY: run glossy_plane light_culling test bench help clean headers vectors readme force
+.PHONY: run $(EXAMPLES) test bench help clean headers vectors readme force

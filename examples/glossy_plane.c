@@ -8,6 +8,7 @@
 */
 #include "../asg.h"
 #include "common/fail.h"
+#include "common/file.h"
 #include "common/image.h"
 #include "common/options.h"
 #include "common/parallel.h"
@@ -261,7 +262,15 @@ static void paint(image *sheet, const plane_view *v, int width, int height, int 
 int main(int argc, char **argv) {
     static void (*const shade[PANEL_TRUTH])(const plane_view *, glossy, float *restrict) = {
         shade_sg_sg, shade_asg_asg, shade_asg_sg, shade_accurate};
-    options o;
+    option_size size = {160, 200};
+    int samples = 3072;
+    const char *out = "build/glossy_plane";
+    const option options[] = {
+        OPTION_OF_SIZE(&size),
+        {"--samples N", OPTION_WHOLE, &samples, 2, 1000000, "directions per pixel of the truth", 0},
+        OPTION_OF_OUT(&out),
+        {0, OPTION_WHOLE, 0, 0, 0, 0, 0},
+    };
     plane_view view;
     image sheet;
     float *radiance[PANELS];
@@ -269,44 +278,38 @@ int main(int argc, char **argv) {
     const char *wrong = "name too long";
     int m, k, i, rings;
 
-    memset(&o, 0, sizeof o);
-    o.width = 160;
-    o.height = 200;
-    o.samples = 3072;
-    o.seedless = 1;
-    o.out = "build/glossy_plane";
-    options_read(&o, argc, argv,
+    options_read(options, argc, argv,
                  "Draws a sphere light over a glossy plane, reflection and light as SGs and ASGs,\n"
                  "and prints the speed and the error of each against numerical integration.");
-    if (snprintf(path, sizeof path, "%s.png", o.out) < (int)sizeof path) wrong = image_check_path(path);
+    if (snprintf(path, sizeof path, "%s.png", out) < (int)sizeof path) wrong = file_check(path);
     if (wrong) give_up(path, wrong);
-    for (rings = 1; 3 * (rings + 1) * (rings + 1) <= o.samples; rings++) continue;
-    view = see_plane(o.width, o.height);
-    sheet = image_create(PANELS * (o.width + 2) - 2, 2 * MATERIALS * (o.height + 2) - 2);
+    for (rings = 1; 3 * (rings + 1) * (rings + 1) <= samples; rings++) continue;
+    view = see_plane(size.width, size.height);
+    sheet = image_create(PANELS * (size.width + 2) - 2, 2 * MATERIALS * (size.height + 2) - 2);
     for (k = 0; k < PANELS; k++)
-        radiance[k] = (float *)allocate("image", (size_t)o.width * (size_t)o.height, sizeof(float));
+        radiance[k] = (float *)allocate("image", (size_t)size.width * (size_t)size.height, sizeof(float));
     if (!sheet.pixels) give_up("image", "not enough memory");
 
-    printf("%dx%d pixels a panel, %d directions a pixel of the truth\n\n", o.width, o.height, 3 * rings * rings);
+    printf("%dx%d pixels a panel, %d directions a pixel of the truth\n\n", size.width, size.height, 3 * rings * rings);
     printf("material    panel                 RMSE  relative  ns/pixel\n");
     for (m = 0; m < MATERIALS; m++) {
         const glossy look = materials[m];
         float brightest = 0, scale;
-        double size, started;
+        double root, started;
         for (i = 0; i < view.count; i++)
             view.plane[COEFFICIENT][i] = coefficient(look, toward_light(&view, i), view_at(&view, i));
         started = progress_clock();
         shade_truth(&view, look, rings, radiance[PANEL_TRUTH]);
         started = (progress_clock() - started) * 1e6 / view.count;
-        size = rmse(radiance[PANEL_TRUTH], NULL, view.count);
+        root = rmse(radiance[PANEL_TRUTH], NULL, view.count);
         for (i = 0; i < view.count; i++) brightest = lobe_max(brightest, radiance[PANEL_TRUTH][i]);
         scale = 1.5f / lobe_max(brightest, LOBE_TINY);
         for (k = 0; k < PANELS; k++) {
             double ns = k == PANEL_TRUTH ? started : nanoseconds(&view, look, radiance[k], shade[k]);
             double error = rmse(radiance[k], radiance[PANEL_TRUTH], view.count);
-            paint(&sheet, &view, o.width, o.height, k, 2 * m, radiance[k], NULL, scale);
-            paint(&sheet, &view, o.width, o.height, k, 2 * m + 1, radiance[k], radiance[PANEL_TRUTH], scale);
-            printf("%-11s %-18s %8.5f %9.4f %9.1f\n", look.name, panel_names[k], error, error / size, ns);
+            paint(&sheet, &view, size.width, size.height, k, 2 * m, radiance[k], NULL, scale);
+            paint(&sheet, &view, size.width, size.height, k, 2 * m + 1, radiance[k], radiance[PANEL_TRUTH], scale);
+            printf("%-11s %-18s %8.5f %9.4f %9.1f\n", look.name, panel_names[k], error, error / root, ns);
             fflush(stdout);
         }
         say_forms(&view, look, 0.01f);

@@ -11,6 +11,7 @@
 #include "common/brdf.h"
 #include "common/buffers.h"
 #include "common/fail.h"
+#include "common/file.h"
 #include "common/image.h"
 #include "common/options.h"
 #include "common/parallel.h"
@@ -690,7 +691,7 @@ static void check_paths(const char *prefix) {
         for (picture = 0; picture < 2; picture++) {
             const char *wrong;
             picture_path(path, prefix, which, picture);
-            wrong = image_check_path(path);
+            wrong = file_check(path);
             if (wrong) give_up(path, wrong);
         }
     }
@@ -709,8 +710,15 @@ static void print_row(float alpha, volume which, const outcome *o, double noisy,
     fflush(stdout);
 }
 
+typedef struct {
+    option_size size;
+    int seed, tile; /* edge of the squares of pixels for which lights are culled */
+    float delta;    /* radiance below which lights are left out at random */
+    const char *out;
+} settings;
+
 /* The error against time as delta varies, with the paper's spheroid, the ellipsoid, and the sphere at the light */
-static void vary_delta(renderer *r, const options *o, const tile *reference, int reference_count, pictures *p) {
+static void vary_delta(renderer *r, const settings *o, const tile *reference, int reference_count, pictures *p) {
     static const float factors[] = {256, 64, 16, 4, 1, 0.25f};
     static const volume shapes[] = {AT_LIGHT, SPHEROID, ELLIPSOID};
     int i, k;
@@ -733,23 +741,23 @@ static void vary_delta(renderer *r, const options *o, const tile *reference, int
     }
 }
 
-static void show_scene(int which, const options *o) {
+static void show_scene(int which, const settings *o) {
     pictures p;
     char path[1024];
     int i, k, picture;
-    p.noisy = create(o->width, o->height);
-    p.smooth = create(o->width, o->height);
-    p.wanted = create(o->width, o->height);
-    p.heat = create(o->width, o->height);
-    p.composed = create(o->width, o->height);
-    p.results = create(2 * o->width, 2 * o->height);
-    p.heats = create(SPHEROID_CLOSE * (o->width / 2), ALPHAS * (o->height / 2));
+    p.noisy = create(o->size.width, o->size.height);
+    p.smooth = create(o->size.width, o->size.height);
+    p.wanted = create(o->size.width, o->size.height);
+    p.heat = create(o->size.width, o->size.height);
+    p.composed = create(o->size.width, o->size.height);
+    p.results = create(2 * o->size.width, 2 * o->size.height);
+    p.heats = create(SPHEROID_CLOSE * (o->size.width / 2), ALPHAS * (o->size.height / 2));
     printf("\n%s\n\n%26s%9s%9s%9s%9s%9s%9s%9s  %-8s %s\n", scene_names[which], "VPLs", "false", "in its", "bounds",
            "culling", "shading", "total", "RMSE", "denoised", "mean");
     printf("alpha  volume    /px       /px   volume       ms       ms       ms       ms\n");
     for (i = 0; i < ALPHAS; i++) {
         const scene world = which == 0 ? scene_ring(alphas[i]) : scene_colonnade(alphas[i]);
-        buffer view = buffer_camera(&world, o->width, o->height), rsm = buffer_rsm(&world, RSM_SIZE);
+        buffer view = buffer_camera(&world, o->size.width, o->size.height), rsm = buffer_rsm(&world, RSM_SIZE);
         renderer r;
         tile *reference;
         int reference_count, kind;
@@ -759,7 +767,7 @@ static void show_scene(int which, const options *o) {
         r.view = &view;
         r.frame = view_of(&world);
         r.tiles = make_tiles(&view, &r.frame, o->tile, &r.tile_count);
-        make_lights(&rsm, o->seed, r.lists);
+        make_lights(&rsm, (unsigned)o->seed, r.lists);
         for (kind = 0; kind < KINDS; kind++) {
             r.volumes[kind] = allocate_volumes(r.lists[kind].first[SUBSETS]);
             r.kept[kind].counts = (int *)allocate("scene", (size_t)r.tile_count, sizeof(int));
@@ -786,7 +794,7 @@ static void show_scene(int which, const options *o) {
             }
         }
         compose(&world, &view, &p.smooth, &p.composed);
-        image_paste(&p.results, &p.composed, i % 2 * o->width, i / 2 * o->height);
+        image_paste(&p.results, &p.composed, i % 2 * o->size.width, i / 2 * o->size.height);
         if (i == ALPHAS - 1) vary_delta(&r, o, reference, reference_count, &p);
         for (kind = 0; kind < KINDS; kind++) {
             free_volumes(&r.volumes[kind]);
@@ -818,16 +826,24 @@ static void show_scene(int which, const options *o) {
 }
 
 int main(int argc, char **argv) {
-    options o = {640, 480, {0}, 0, 0, 0, "build/light_culling", 0, 0.1f, 16};
+    settings o = {{640, 480}, 0, 16, 0.1f, "build/light_culling"};
+    const option options[] = {
+        OPTION_OF_SIZE(&o.size),
+        {"--delta X", OPTION_REAL, &o.delta, 1e-9, 1e9, "radiance below which lights are left out at random", 0},
+        {"--tile N", OPTION_WHOLE, &o.tile, 2, 16, "edge of a tile, in pixels of an interleaved image", 0},
+        OPTION_OF_SEED(&o.seed),
+        OPTION_OF_OUT(&o.out),
+        {0, OPTION_WHOLE, 0, 0, 0, 0, 0},
+    };
     int which;
     options_read(
-        &o, argc, argv,
+        options, argc, argv,
         "Renders glossy caustics with 65,536 virtual point lights that are culled at random without bias,\n"
         "and prints how many lights each bounding volume lets through, in vain or not, and how long it takes.");
     check_paths(o.out);
     printf(
         "%dx%d pixels, tiles of %dx%d, delta %g; times are the least of %d runs. The reference is the sum over all\n",
-        o.width, o.height, o.tile, o.tile, (double)o.delta, REPEATS);
+        o.size.width, o.size.height, o.tile, o.tile, (double)o.delta, REPEATS);
     printf(
         "VPLs at every %dth pixel of every %dth row; mean: of the light there, over the reference's. False: glossy\n",
         REFERENCE_STEP, REFERENCE_STEP);

@@ -11,6 +11,7 @@
 #include "common/brdf.h"
 #include "common/buffers.h"
 #include "common/fail.h"
+#include "common/file.h"
 #include "common/image.h"
 #include "common/options.h"
 #include "common/parallel.h"
@@ -245,8 +246,7 @@ static void check_paths(const char *prefix) {
     int i;
     for (i = 0; i < PICTURES; i++) {
         const char *wrong = "name too long";
-        if (snprintf(path, sizeof path, "%s%s", prefix, picture_names[i]) < (int)sizeof path)
-            wrong = image_check_path(path);
+        if (snprintf(path, sizeof path, "%s%s", prefix, picture_names[i]) < (int)sizeof path) wrong = file_check(path);
         if (wrong) give_up(path, wrong);
     }
 }
@@ -347,13 +347,22 @@ static void render(const scene *world, const buffer *view, const lit_scene *lit,
     free(maps);
 }
 
+typedef struct {
+    option_size size;
+    option_list lights;
+    int seed, samples;
+    const char *out;
+} settings;
+
 /* Indirect light by path tracing, in two halves whose difference tells the noise. */
-static void trace_reference(const scene *world, const buffer *view, const options *o, image *reference, image *half) {
+static void trace_reference(const scene *world, const buffer *view, const settings *o, image *reference, image *half) {
     const double started = progress_clock();
     double noise;
     int i;
-    if (!path_trace_indirect(world, view, o->samples / 2, 2 * o->seed, reference->pixels, "reference, first half") ||
-        !path_trace_indirect(world, view, o->samples / 2, 2 * o->seed + 1, half->pixels, "reference, second half"))
+    if (!path_trace_indirect(world, view, o->samples / 2, 2 * (unsigned)o->seed, reference->pixels,
+                             "reference, first half") ||
+        !path_trace_indirect(world, view, o->samples / 2, 2 * (unsigned)o->seed + 1, half->pixels,
+                             "reference, second half"))
         give_up("reference", "not enough memory");
     noise = image_rmse(reference, half) / 2;
     for (i = 0; i < view->width * view->height; i++)
@@ -364,37 +373,45 @@ static void trace_reference(const scene *world, const buffer *view, const option
 }
 
 int main(int argc, char **argv) {
-    options o = {400, 300, {64, 256, 1024, 4096}, 4, 0, 512, "build/vsgl", 0, 0, 0};
+    settings o = {{400, 300}, {4, {64, 256, 1024, 4096}}, 0, 512, "build/vsgl"};
+    const option options[] = {
+        OPTION_OF_SIZE(&o.size),
+        {"--lights N,...", OPTION_LIST, &o.lights, 1, 65536, "numbers of lights to try", 0},
+        {"--samples N", OPTION_WHOLE, &o.samples, 2, 1000000, "samples per pixel of the reference", 0},
+        OPTION_OF_SEED(&o.seed),
+        OPTION_OF_OUT(&o.out),
+        {0, OPTION_WHOLE, 0, 0, 0, 0, 0},
+    };
     const scene world = scene_room();
     buffer view, rsm;
     image direct, reference, indirect, best;
     lit_scene lit;
     int i, rule, most = 0;
 
-    options_read(&o, argc, argv,
+    options_read(options, argc, argv,
                  "Renders one-bounce glossy indirect light with virtual spherical Gaussian lights\n"
                  "and prints its speed against its error, for two rules of filtered sampling.");
     check_paths(o.out);
-    view = buffer_camera(&world, o.width, o.height);
+    view = buffer_camera(&world, o.size.width, o.size.height);
     rsm = buffer_rsm(&world, RSM_SIZE);
-    direct = image_create(o.width, o.height);
-    reference = image_create(o.width, o.height);
-    indirect = image_create(o.width, o.height);
-    best = image_create(o.width, o.height);
+    direct = image_create(o.size.width, o.size.height);
+    reference = image_create(o.size.width, o.size.height);
+    indirect = image_create(o.size.width, o.size.height);
+    best = image_create(o.size.width, o.size.height);
     if (!view.texels || !rsm.texels || !direct.pixels || !reference.pixels || !indirect.pixels || !best.pixels)
         give_up("images", "not enough memory");
 
     light_directly(&world, &view, &direct);
     trace_reference(&world, &view, &o, &reference, &indirect);
     lit = prepare(&world, &rsm);
-    printf("%dx%d pixels, RSM %dx%d that reflects %.3f W, times in ms\n\n", o.width, o.height, RSM_SIZE, RSM_SIZE,
-           lit.flux);
+    printf("%dx%d pixels, RSM %dx%d that reflects %.3f W, times in ms\n\n", o.size.width, o.size.height, RSM_SIZE,
+           RSM_SIZE, lit.flux);
     printf("lights rule      moments pyramid sampling visibility  shading    total     RMSE relative  light/RSM\n");
-    for (i = 0; i < o.light_counts; i++) {
+    for (i = 0; i < o.lights.count; i++) {
         for (rule = 0; rule < RULES; rule++) {
-            render(&world, &view, &lit, (level_rule)rule, o.lights[i], o.seed, &reference, &indirect);
-            if (rule == RULE_BISECTION && o.lights[i] >= most) {
-                most = o.lights[i];
+            render(&world, &view, &lit, (level_rule)rule, o.lights.value[i], (unsigned)o.seed, &reference, &indirect);
+            if (rule == RULE_BISECTION && o.lights.value[i] >= most) {
+                most = o.lights.value[i];
                 image_paste(&best, &indirect, 0, 0);
             }
         }

@@ -1,5 +1,5 @@
 #include "image.h"
-#include <errno.h>
+#include "file.h"
 #include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -125,16 +125,6 @@ static void put_picture(png *p, const image *picture, float exposure) {
     end_chunk(p);
 }
 
-/* path + ".part", to be freed; null when memory is short */
-static char *part_name(const char *path) {
-    char *name = (char *)malloc(strlen(path) + 6);
-    if (name) {
-        strcpy(name, path);
-        strcat(name, ".part");
-    }
-    return name;
-}
-
 static int finite_picture(const image *picture) {
     int i, count = picture->width * picture->height;
     for (i = 0; i < count; i++) {
@@ -145,48 +135,13 @@ static int finite_picture(const image *picture) {
 }
 
 const char *image_write_png(const char *path, const image *picture, float exposure) {
-    const char *wrong = NULL;
-    char *part = part_name(path);
+    const char *wrong;
+    file f;
     png p;
-    if (!part) return "not enough memory";
-    if (!finite_picture(picture)) {
-        free(part);
-        return "the picture has a pixel that is not finite";
-    }
-    p.file = fopen(part, "wb");
-    if (!p.file) {
-        wrong = strerror(errno);
-    } else {
-        put_picture(&p, picture, exposure);
-        if (ferror(p.file)) wrong = strerror(errno);
-        if (fclose(p.file) != 0 && !wrong) wrong = strerror(errno);
-        if (!wrong && rename(part, path) != 0) {
-            remove(path); /* some systems do not rename onto an existing file */
-            if (rename(part, path) != 0) wrong = strerror(errno);
-        }
-        if (wrong) remove(part);
-    }
-    free(part);
-    return wrong;
-}
-
-const char *image_check_path(const char *path) {
-    const char *wrong = NULL;
-    char *part = part_name(path);
-    FILE *file;
-    if (!part) return "not enough memory";
-    file = fopen(part, "wb");
-    if (file) {
-        fclose(file);
-        remove(part);
-        file = fopen(path, "r+b"); /* an existing file, or directory, must be one that can be replaced */
-        if (file)
-            fclose(file);
-        else if (errno != ENOENT)
-            wrong = strerror(errno);
-    } else {
-        wrong = strerror(errno);
-    }
-    free(part);
-    return wrong;
+    if (!finite_picture(picture)) return "the picture has a pixel that is not finite";
+    wrong = file_begin(&f, path);
+    if (wrong) return wrong;
+    p.file = f.stream;
+    put_picture(&p, picture, exposure);
+    return file_end(&f);
 }

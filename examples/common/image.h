@@ -24,7 +24,4 @@ void image_paste(image *target, const image *part, int x, int y);
    under another name first. Returns null, or what went wrong. */
 const char *image_write_png(const char *path, const image *picture, float exposure);
 
-/* Whether a file can be created at the path; leaves nothing behind. Returns null, or what is wrong. */
-const char *image_check_path(const char *path);
-
 #endif

@@ -1,122 +1,172 @@
 #include "options.h"
 #include <errno.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static void usage(FILE *to, const options *o, const char *program, const char *about) {
+static void print_default(const option *o) {
+    const option_list *list = (const option_list *)o->value;
+    const option_size *size = (const option_size *)o->value;
     int i;
-    fprintf(to, "usage: %s [options]\n%s\n\n", program, about);
-    fprintf(to, "  --size WxH       of each image in pixels, 16x16 to 4096x4096 (default %dx%d)\n", o->width,
-            o->height);
-    if (o->light_counts > 0) {
-        fprintf(to, "  --lights N,...   numbers of lights to try, up to %d of them, 1 to 65536 (default ",
-                OPTIONS_MAX_LIGHTS);
-        for (i = 0; i < o->light_counts; i++) fprintf(to, "%s%d", i ? "," : "", o->lights[i]);
-        fprintf(to, ")\n");
+    switch (o->kind) {
+    case OPTION_WHOLE:
+        printf("(default %d)", *(const int *)o->value);
+        break;
+    case OPTION_REAL:
+        printf("(default %g)", (double)*(const float *)o->value);
+        break;
+    case OPTION_TEXT:
+        if (*(const char *const *)o->value) printf("(default %s)", *(const char *const *)o->value);
+        break;
+    case OPTION_SIZE:
+        printf("(default %dx%d)", size->width, size->height);
+        break;
+    case OPTION_LIST:
+        for (i = 0; i < list->count; i++) printf("%s%d", i ? "," : "(default ", list->value[i]);
+        printf(")");
+        break;
+    case OPTION_CHOICE:
+        printf("(default %s)", o->choices[*(const int *)o->value]);
+        break;
     }
-    if (o->samples)
-        fprintf(to, "  --samples N      samples per pixel of the reference, 2 to 1000000 (default %d)\n", o->samples);
-    if (o->delta > 0)
-        fprintf(to, "  --delta X        radiance below which lights are left out at random, 1e-9 to 1e9 (default %g)\n",
-                (double)o->delta);
-    if (o->tile)
-        fprintf(to, "  --tile N         edge of a tile, in pixels of an interleaved image, 2 to 16 (default %d)\n",
-                o->tile);
-    if (!o->seedless) fprintf(to, "  --seed N         shifts every sample, 0 to 4294967295 (default %u)\n", o->seed);
-    fprintf(to, "  --out PREFIX     beginning of the images' names (default %s)\n", o->out);
-    fprintf(to, "  --help           prints this\n");
 }
 
-/* A whole number in [low, high] and the character after it; 0 if it is not one. */
-static int number(const char *text, unsigned long low, unsigned long high, unsigned long *value, const char **rest) {
+static void print_range(const option *o) {
+    int i;
+    switch (o->kind) {
+    case OPTION_WHOLE:
+    case OPTION_REAL:
+        printf(", %.10g to %.10g ", o->low, o->high);
+        break;
+    case OPTION_TEXT:
+        printf(" ");
+        break;
+    case OPTION_SIZE:
+        printf(", %gx%g to %gx%g ", o->low, o->low, o->high, o->high);
+        break;
+    case OPTION_LIST:
+        printf(", up to %d of them, %.10g to %.10g ", OPTIONS_MAX_LIST, o->low, o->high);
+        break;
+    case OPTION_CHOICE:
+        for (i = 0; o->choices[i]; i++) printf("%s%s", i ? ", " : ": ", o->choices[i]);
+        printf(" ");
+        break;
+    }
+}
+
+static void usage(const option *options, const char *program, const char *about) {
+    const option *o;
+    int width = (int)strlen("--help");
+    for (o = options; o->name; o++) width = (int)strlen(o->name) > width ? (int)strlen(o->name) : width;
+    printf("usage: %s [options]\n%s\n\n", program, about);
+    for (o = options; o->name; o++) {
+        printf("  %-*s  %s", width, o->name, o->help);
+        print_range(o);
+        print_default(o);
+        printf("\n");
+    }
+    printf("  %-*s  prints this\n", width, "--help");
+}
+
+/* A whole number in the option's range and the character after it; 0 if it is not one. */
+static int whole(const option *o, const char **text, int *value) {
     char *end;
-    if (*text < '0' || *text > '9') return 0;
+    unsigned long number;
+    if (**text < '0' || **text > '9') return 0;
     errno = 0;
-    *value = strtoul(text, &end, 10);
-    *rest = end;
-    return errno == 0 && *value >= low && *value <= high;
-}
-
-static int read_size(options *o, const char *text) {
-    unsigned long width, height;
-    if (!number(text, 16, 4096, &width, &text) || *text != 'x') return 0;
-    if (!number(text + 1, 16, 4096, &height, &text) || *text) return 0;
-    o->width = (int)width;
-    o->height = (int)height;
+    number = strtoul(*text, &end, 10);
+    if (errno != 0 || !((double)number >= o->low && (double)number <= o->high)) return 0;
+    *value = (int)number;
+    *text = end;
     return 1;
 }
 
-static int read_lights(options *o, const char *text) {
-    unsigned long value;
-    o->light_counts = 0;
+static int read_real(const option *o, const char *text) {
+    char *end;
+    double number = strtod(text, &end);
+    if (end == text || *end || !(number >= o->low && number <= o->high)) return 0;
+    *(float *)o->value = (float)number;
+    return 1;
+}
+
+static int read_size(const option *o, const char *text) {
+    option_size *size = (option_size *)o->value;
+    if (!whole(o, &text, &size->width) || *text++ != 'x') return 0;
+    return whole(o, &text, &size->height) && !*text;
+}
+
+static int read_list(const option *o, const char *text) {
+    option_list *list = (option_list *)o->value;
+    list->count = 0;
     for (;; text++) {
-        if (o->light_counts == OPTIONS_MAX_LIGHTS || !number(text, 1, 65536, &value, &text)) return 0;
-        o->lights[o->light_counts++] = (int)value;
+        if (list->count == OPTIONS_MAX_LIST || !whole(o, &text, &list->value[list->count++])) return 0;
         if (!*text) return 1;
         if (*text != ',') return 0;
     }
 }
 
-static int read_delta(options *o, const char *text) {
-    char *end;
-    double value = strtod(text, &end);
-    if (end == text || *end || !(value >= 1e-9 && value <= 1e9)) return 0;
-    o->delta = (float)value;
-    return 1;
+static int read_choice(const option *o, const char *text) {
+    int i;
+    for (i = 0; o->choices[i]; i++) {
+        if (strcmp(text, o->choices[i]) != 0) continue;
+        *(int *)o->value = i;
+        return 1;
+    }
+    return 0;
 }
 
-/* Whether the program has the option. */
-static int known(const options *defaults, const char *name) {
-    if (!strcmp(name, "--lights")) return defaults->light_counts > 0;
-    if (!strcmp(name, "--samples")) return defaults->samples > 0;
-    if (!strcmp(name, "--delta")) return defaults->delta > 0;
-    if (!strcmp(name, "--tile")) return defaults->tile > 0;
-    if (!strcmp(name, "--seed")) return !defaults->seedless;
-    return !strcmp(name, "--size") || !strcmp(name, "--out");
+/* Whether the text is a value that the option takes */
+static int read_value(const option *o, const char *text) {
+    switch (o->kind) {
+    case OPTION_WHOLE:
+        return whole(o, &text, (int *)o->value) && !*text;
+    case OPTION_REAL:
+        return read_real(o, text);
+    case OPTION_SIZE:
+        return read_size(o, text);
+    case OPTION_LIST:
+        return read_list(o, text);
+    case OPTION_CHOICE:
+        return read_choice(o, text);
+    case OPTION_TEXT:
+        break;
+    }
+    *(const char **)o->value = text;
+    return *text != 0;
 }
 
-void options_read(options *o, int argc, char **argv, const char *about) {
-    const options defaults = *o;
+static const option *find(const option *options, const char *name) {
+    const option *o;
+    const size_t length = strlen(name);
+    for (o = options; o->name; o++) {
+        if (strncmp(o->name, name, length) == 0 && o->name[length] == ' ') return o;
+    }
+    return NULL;
+}
+
+static void refuse(const char *program) {
+    fprintf(stderr, "%s --help tells what there is\n", program);
+    exit(2);
+}
+
+void options_read(const option *options, int argc, char **argv, const char *about) {
     int i;
     for (i = 1; i < argc; i++) {
-        const char *name = argv[i], *value = i + 1 < argc ? argv[i + 1] : NULL, *rest;
-        unsigned long n = 0;
-        int right = 0;
-        if (!strcmp(name, "--help")) {
-            usage(stdout, &defaults, argv[0], about);
-            exit(0);
-        } else if (!known(&defaults, name)) {
-            fprintf(stderr, "%s: unknown argument '%s'\n", argv[0], name);
-        } else if (!value) {
-            fprintf(stderr, "%s: %s needs a value\n", argv[0], name);
-        } else {
-            if (!strcmp(name, "--size")) {
-                right = read_size(o, value);
-            } else if (!strcmp(name, "--lights")) {
-                right = read_lights(o, value);
-            } else if (!strcmp(name, "--samples")) {
-                right = number(value, 2, 1000000, &n, &rest) && !*rest;
-                o->samples = (int)n;
-            } else if (!strcmp(name, "--seed")) {
-                right = number(value, 0, UINT_MAX, &n, &rest) && !*rest;
-                o->seed = (unsigned)n;
-            } else if (!strcmp(name, "--tile")) {
-                right = number(value, 2, 16, &n, &rest) && !*rest;
-                o->tile = (int)n;
-            } else if (!strcmp(name, "--delta")) {
-                right = read_delta(o, value);
-            } else {
-                right = *value != 0;
-                o->out = value;
-            }
-            if (!right) fprintf(stderr, "%s: bad value '%s' of %s\n", argv[0], value, name);
-            i++;
-        }
-        if (!right) {
-            usage(stderr, &defaults, argv[0], about);
-            exit(2);
+        if (strcmp(argv[i], "--help") != 0) continue;
+        usage(options, argv[0], about); /* before any default is replaced */
+        exit(0);
+    }
+    for (i = 1; i < argc; i += 2) {
+        const option *o = find(options, argv[i]);
+        if (!o) {
+            fprintf(stderr, "%s: unknown argument '%s'\n", argv[0], argv[i]);
+            refuse(argv[0]);
+        } else if (i + 1 == argc) {
+            fprintf(stderr, "%s: %s needs a value\n", argv[0], argv[i]);
+            refuse(argv[0]);
+        } else if (!read_value(o, argv[i + 1])) {
+            fprintf(stderr, "%s: bad value '%s' of %s\n", argv[0], argv[i + 1], argv[i]);
+            refuse(argv[0]);
         }
     }
 }

@@ -2,23 +2,46 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
-enum { OPTIONS_MAX_LIGHTS = 8 };
+typedef enum { OPTION_WHOLE, OPTION_REAL, OPTION_TEXT, OPTION_SIZE, OPTION_LIST, OPTION_CHOICE } option_kind;
+
+enum { OPTIONS_MAX_LIST = 8 };
 
 typedef struct {
     int width, height;
-    int lights[OPTIONS_MAX_LIGHTS], light_counts; /* numbers of lights to try, ascending as given */
-    unsigned seed;
-    int samples;
-    const char *out;
-    int seedless; /* 1: nothing is random, and there is no --seed */
-    float delta;  /* radiance below which lights are left out at random */
-    int tile;     /* edge of the squares of pixels for which lights are culled */
-} options;
+} option_size;
 
-/* A program that gives no default for the number of lights, the samples, delta or the tile has no such option.
+typedef struct {
+    int count, value[OPTIONS_MAX_LIST]; /* as given */
+} option_list;
 
-   Reads the arguments into o, which holds the defaults. --help: prints usage to stdout and exits with 0; anything
-   wrong: says what on stderr, with the usage, and exits with 2. `about` is the first line of the help. */
-void options_read(options *o, int argc, char **argv, const char *about);
+/* What follows an option's name, and where it goes: that holds the default.
+
+   kind     value             may be
+   WHOLE    int *             low to high
+   REAL     float *           low to high
+   TEXT     const char **     anything but empty; there is no default where it points to null
+   SIZE     option_size *     WxH, both low to high
+   LIST     option_list *     whole numbers, each low to high, with commas between
+   CHOICE   int *             the index of one of `choices`, which null closes */
+typedef struct {
+    const char *name; /* and its value's: "--seed N" */
+    option_kind kind;
+    void *value;
+    double low, high;
+    const char *help; /* what it is */
+    const char *const *choices;
+} option;
+
+/* Every example has them */
+#define OPTION_OF_SIZE(size)                                                                                           \
+    { "--size WxH", OPTION_SIZE, size, 16, 4096, "of each image in pixels", 0 }
+#define OPTION_OF_SEED(seed)                                                                                           \
+    { "--seed N", OPTION_WHOLE, seed, 0, 2147483647, "shifts every sample", 0 }
+#define OPTION_OF_OUT(out)                                                                                             \
+    { "--out PREFIX", OPTION_TEXT, out, 0, 0, "beginning of the names of what is written", 0 }
+
+/* Reads the arguments. --help: prints usage to stdout and exits with 0; anything wrong: says what on stderr and exits
+   with 2. `about` is the first line of the help, a null name closes the options. */
+void options_read(const option *options, int argc, char **argv, const char *about);
 
 #endif

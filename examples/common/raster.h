@@ -1,0 +1,24 @@
+/* raster.h - images of floats from files: PFM, and Radiance HDR to read. */
+#ifndef RASTER_H
+#define RASTER_H
+
+#include <stddef.h>
+
+typedef struct {
+    float *values; /* interleaved, top row first; to be freed */
+    int width, height, channels;
+} raster;
+
+enum { RASTER_MAX_SIDE = 32768, RASTER_MAX_TEXELS = 1 << 26 };
+
+/* Reads a PFM file of one or three channels, either byte order, or a Radiance file of RGB (flat, run-length encoded by
+   scanline, or in the old way; rows from the top and columns from the left). Values are as in the file, without its
+   scale or exposure, and may be infinite or NaN in PFM. Both return null, or what is wrong: then there is nothing to
+   free. */
+const char *raster_read(const char *path, raster *result);
+const char *raster_parse(const unsigned char *bytes, size_t count, raster *result);
+
+/* Writes PFM of one or three channels, little endian. The file is whole or absent. Returns null, or what went wrong. */
+const char *raster_write(const char *path, const raster *picture);
+
+#endif
