@@ -3,6 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What went wrong last; a stream's error may be too old for errno to know. */
+static const char *reason(const char *otherwise) {
+    return errno ? strerror(errno) : otherwise;
+}
+
 /* path + ".part", to be freed; null when memory is short */
 static char *part_name(const char *path) {
     char *name = (char *)malloc(strlen(path) + 6);
@@ -13,59 +18,69 @@ static char *part_name(const char *path) {
     return name;
 }
 
-const char *file_check(const char *path) {
-    const char *wrong = NULL;
-    char *part = part_name(path);
-    FILE *stream;
-    if (!part) return "not enough memory";
-    stream = fopen(part, "wb");
-    if (stream) {
-        fclose(stream);
-        remove(part);
-        stream = fopen(path, "r+b"); /* an existing file, or directory, must be one that can be replaced */
-        if (stream)
-            fclose(stream);
-        else if (errno != ENOENT)
-            wrong = strerror(errno);
-    } else {
-        wrong = strerror(errno);
-    }
-    free(part);
-    return wrong;
+static void drop_part(file *f) {
+    remove(f->part);
+    free(f->part);
 }
 
 const char *file_begin(file *f, const char *path) {
-    const char *wrong;
+    const char *wrong = NULL;
+    FILE *before;
     f->path = path;
     f->part = part_name(path);
     if (!f->part) return "not enough memory";
+    errno = 0;
     f->stream = fopen(f->part, "wb");
-    if (f->stream) return NULL;
-    wrong = strerror(errno);
-    free(f->part);
+    if (!f->stream) {
+        wrong = reason("cannot be created");
+        free(f->part);
+        return wrong;
+    }
+    before = fopen(path, "r+b"); /* what is there must be a file that may be replaced, and no directory */
+    if (before)
+        fclose(before);
+    else if (errno != ENOENT)
+        wrong = reason("cannot be replaced");
+    if (wrong) {
+        fclose(f->stream);
+        drop_part(f);
+    }
+    errno = 0;
     return wrong;
 }
 
 const char *file_end(file *f) {
-    const char *wrong = ferror(f->stream) ? strerror(errno) : NULL;
-    if (fclose(f->stream) != 0 && !wrong) wrong = strerror(errno);
+    const char *wrong = ferror(f->stream) ? reason("cannot be written") : NULL;
+    if (fclose(f->stream) != 0 && !wrong) wrong = reason("cannot be written");
     if (!wrong && rename(f->part, f->path) != 0) {
         remove(f->path); /* some systems do not rename onto an existing file */
-        if (rename(f->part, f->path) != 0) wrong = strerror(errno);
+        if (rename(f->part, f->path) != 0) wrong = reason("cannot be renamed");
     }
-    if (wrong) remove(f->part);
-    free(f->part);
+    if (wrong)
+        drop_part(f);
+    else
+        free(f->part);
     return wrong;
+}
+
+const char *file_check(const char *path) {
+    file f;
+    const char *wrong = file_begin(&f, path);
+    if (wrong) return wrong;
+    fclose(f.stream);
+    drop_part(&f);
+    return NULL;
 }
 
 const char *file_read(const char *path, size_t limit, unsigned char **bytes, size_t *count) {
     const char *wrong = NULL;
     size_t room = 1 << 16;
-    FILE *stream = fopen(path, "rb");
-    if (!stream) return strerror(errno);
+    FILE *stream;
+    errno = 0;
+    stream = fopen(path, "rb");
+    if (!stream) return reason("cannot be opened");
     *bytes = (unsigned char *)malloc(room);
     *count = 0;
-    errno = 0;
     while (*bytes) {
         unsigned char *more;
         *count += fread(*bytes + *count, 1, room - *count, stream);
@@ -79,7 +94,7 @@ const char *file_read(const char *path, size_t limit, unsigned char **bytes, siz
     if (!*bytes)
         wrong = "not enough memory";
     else if (ferror(stream)) /* a directory, for one */
-        wrong = errno ? strerror(errno) : "cannot be read";
+        wrong = reason("cannot be read");
     else if (*count > limit)
         wrong = "the file is too large";
     if (wrong) free(*bytes);

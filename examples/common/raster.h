@@ -13,8 +13,9 @@ enum { RASTER_MAX_SIDE = 32768, RASTER_MAX_TEXELS = 1 << 26 };
 
 /* Reads a PFM file of one or three channels, either byte order, or a Radiance file of RGB (flat, run-length encoded by
    scanline, or in the old way; rows from the top and columns from the left). Values are as in the file, without its
-   scale or exposure, and may be infinite or NaN in PFM. Both return null, or what is wrong: then there is nothing to
-   free. */
+   scale or exposure; PFM's may be infinite or NaN, Radiance's are the mantissa times 2^(exponent - 136). A file ends
+   with its last texel. Both return null, or what is wrong: then there is nothing to free. Memory for the values is taken
+   only once all of them are seen to be there. */
 const char *raster_read(const char *path, raster *result);
 const char *raster_parse(const unsigned char *bytes, size_t count, raster *result);
 
