@@ -5,6 +5,7 @@ OPTIMIZE = -O3 -fno-math-errno -fno-trapping-math $(NATIVE)
 WARN = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion $(if $(WERROR),-Werror)
 CFLAGS = $(OPTIMIZE)
 ARGS =
+SECONDS = 60
 
 # What this compiler has: tuning for this machine, threads. Each is used only if a program links with it.
 has = $(shell mkdir -p $(BUILD) && echo 'int main(void) { return 0; }' > $(BUILD)/probe.c && \
@@ -19,6 +20,7 @@ HEADERS = sg.h asg.h fis.h ggx_bound.h
 EXAMPLES = vsgl glossy_plane light_culling
 COMMON = $(wildcard examples/common/*.c)
 TESTS = $(wildcard tests/*.c)
+FUZZ = $(patsubst tests/fuzz/%.c,%,$(wildcard tests/fuzz/*.c))
 
 run: vsgl
 
@@ -38,6 +40,7 @@ help:
 	@echo '                     each takes ARGS="--help"'
 	@echo 'make test            compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
 	@echo 'make bench           speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
+	@echo 'make fuzz            SECONDS=60 of random files for each reader, by clang with its libFuzzer'
 	@echo 'make clean           deletes $(BUILD)/'
 	@echo 'make help            prints this'
 	@echo
@@ -49,8 +52,10 @@ clean:
 $(EXAMPLES:%=$(BUILD)/%): $(BUILD)/%: examples/%.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(OPENMP) $< $(COMMON) -o $@ -lm
 
-$(BUILD)/tests: $(TESTS) $(wildcard tests/*.h) $(HEADERS) $(BUILD)/flags
-	$(COMPILE) $(TESTS) -o $@ -lm
+# tests/raster.c includes examples/common/raster.c, to count its memory.
+$(BUILD)/tests: $(TESTS) examples/common/file.c $(wildcard tests/*.h examples/common/raster.* examples/common/file.h) \
+                $(HEADERS) $(BUILD)/flags
+	$(COMPILE) $(TESTS) examples/common/file.c -o $@ -lm
 
 # The loops are compiled twice: as vector and as scalar code, by nothing but -O3 for this machine, in the C that
 # compilers default to, which contracts a * b + c.
@@ -67,6 +72,23 @@ $(BUILD)/%_vector.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEA
 
 $(BUILD)/%_scalar.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEADERS) $(BUILD)/flags
 	$(BENCH_COMPILE) -DBENCH_SCALAR -fno-tree-vectorize -fno-tree-slp-vectorize -c $< -o $@
+
+# Each of tests/fuzz for some seconds, from the files that a script beside it makes; what it learns stays in $(BUILD)/fuzz.
+FUZZ_CC = $(if $(findstring clang,$(CC)),$(CC),clang)
+FUZZ_FLAGS = -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all
+
+fuzz: $(BUILD)/flags
+	@echo 'int LLVMFuzzerTestOneInput(void); int LLVMFuzzerTestOneInput(void) { return 0; }' > $(BUILD)/fuzz.c
+	@$(FUZZ_CC) $(FUZZ_FLAGS) $(BUILD)/fuzz.c -o $(BUILD)/fuzz.probe > $(BUILD)/fuzz.log 2>&1 || { cat $(BUILD)/fuzz.log; \
+	    echo "make fuzz: $(FUZZ_CC) does not link with libFuzzer: install clang with its compiler-rt libraries"; exit 1; }
+	@set -e; for name in $(FUZZ); do \
+	    mkdir -p $(BUILD)/fuzz/$$name; \
+	    [ ! -e tests/fuzz/$$name.sh ] || sh tests/fuzz/$$name.sh $(BUILD)/fuzz/$$name; \
+	    $(FUZZ_CC) -std=c99 $(WARN) -O1 -g $(FUZZ_FLAGS) tests/fuzz/$$name.c -o $(BUILD)/fuzz.$$name -lm; \
+	    $(BUILD)/fuzz.$$name -max_total_time=$(SECONDS) -timeout=10 -max_len=2048 -print_final_stats=1 \
+	        -artifact_prefix=$(BUILD)/fuzz.$$name. $(BUILD)/fuzz/$$name > $(BUILD)/fuzz.log 2>&1 || { cat $(BUILD)/fuzz.log; exit 1; }; \
+	    grep -E 'DONE|stat::number_of_executed' $(BUILD)/fuzz.log; echo "ok     fuzz $$name, $(SECONDS) s"; \
+	done
 
 # Each header alone, as C99 and, where the compiler knows it, as C++17.
 headers: $(BUILD)/flags
@@ -94,4 +116,4 @@ $(BUILD)/flags: force
 	@mkdir -p $(BUILD)
 	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
 
-.PHONY: run $(EXAMPLES) test bench help clean headers vectors readme force
+.PHONY: run $(EXAMPLES) test bench fuzz help clean headers vectors readme force

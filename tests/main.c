@@ -10,6 +10,7 @@ static const char *root = ".";
 static int verbose;
 static int failures; /* of the running test */
 int test_repeat = 1;
+const char *test_files;
 
 static void fail(const char *what, const double *inputs, int count) {
     int i;
@@ -88,7 +89,7 @@ static void usage(FILE *to) {
 }
 
 int main(int argc, char **argv) {
-    const test_case *tables[4];
+    const test_case *tables[5];
     const char *wanted = "";
     int passed = 0, failed = 0, i;
     size_t table;
@@ -96,6 +97,8 @@ int main(int argc, char **argv) {
     tables[1] = asg_tests;
     tables[2] = fis_tests;
     tables[3] = ggx_bound_tests;
+    tables[4] = raster_tests;
+    test_files = argv[0];
     for (i = 1; i < argc; i++) {
         if (!strcmp(argv[i], "--help")) {
             usage(stdout);

@@ -56,10 +56,14 @@ extern int test_repeat;
 /* A generator that starts anew with each test, so that a test draws the same alone as among others. */
 extern test_rng test_random;
 
-/* One table per header, closed by a null name. */
+/* How the names of files that tests write begin: they are beside the executable, and removed. */
+extern const char *test_files;
+
+/* One table per header, and one for the examples' files; closed by a null name. */
 extern const test_case sg_tests[];
 extern const test_case asg_tests[];
 extern const test_case fis_tests[];
 extern const test_case ggx_bound_tests[];
+extern const test_case raster_tests[];
 
 #endif
