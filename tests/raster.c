@@ -130,6 +130,18 @@ static void pfm_orders(void) {
     }
 }
 
+/* Only one space ends the header. */
+static void pfm_spaces(void) {
+    content c = text("Pf\r\n 1\t1 \n1 ");
+    raster r;
+    unsigned bits;
+    ADD(&c, "\x20\x0A\x0D\x09");
+    if (!accepted(&c, &r)) return;
+    memcpy(&bits, r.values, sizeof bits);
+    test_that(bits == 0x200A0D09u, "texels that look like spaces", NULL, 0);
+    free(r.values);
+}
+
 static void radiance_flat(void) {
     static const float wanted[] = {1,        0.5f,     0.25f,     2,         2,           9, 0, 0, 0, 255 * 0x1p119f,
                                    0x1p119f, 0x1p119f, 0x1p-135f, 0x1p-134f, 0x1.8p-134f, 0, 0, 0};
@@ -157,6 +169,24 @@ static void radiance_scanlines(void) {
         wanted_value(&r, 3 * x + 2, (x < 4 ? 5 : 7) * unit);
     }
     free(r.values);
+    c = text(RADIANCE "-Y 1 +X 128\n"); /* the longest runs: 128 bytes, 127 times the same */
+    ADD(&c, "\x02\x02\0\x80\x80");
+    for (x = 0; x < 128; x++) c.at[c.count++] = (unsigned char)x;
+    ADD(&c, "\xFF\x07\x01\x08\xFF\x09\x01\x0A\xFF\x88\x81\x87");
+    if (accepted(&c, &r)) {
+        wanted_value(&r, 3 * 126, 126);
+        wanted_value(&r, 3 * 126 + 1, 7);
+        wanted_value(&r, 3 * 127, 63.5f);
+        wanted_value(&r, 3 * 127 + 1, 4);
+        free(r.values);
+    }
+    c = text(RADIANCE "-Y 1 +X 8\n"); /* flat, though it begins almost as runs do */
+    ADD(&c, "\x02\x02\x80\x88\x01\x01\x01\x07");
+    if (accepted(&c, &r)) {
+        wanted_value(&r, 2, 128);
+        wanted_value(&r, 23, 128);
+        free(r.values);
+    }
 }
 
 static void radiance_old_runs(void) {
@@ -198,10 +228,20 @@ static void check_refused(const content *c, size_t count, const char *reason, do
 static void truncated(void) {
     int kind;
     for (kind = 0; kind < SAMPLES; kind++) {
+        const size_t texels = kind <= GREY_BIG ? 16 : 24;
         content c = sample(kind);
+        const char *wrong;
         raster r;
         size_t count;
-        for (count = 0; count < c.count; count++) check_refused(&c, count, "it", (double)count);
+        for (count = 0; count < c.count; count++) {
+            const char *reason = count < 2 ? "neither" : "cut short";
+            double length = (double)count;
+            if (kind <= COLOUR_BIG && count + texels >= c.count) reason = "fewer texels";
+            check_refused(&c, count, reason, length);
+            /* the same with what is missing behind it: whoever reads on finds a valid file, and that it is not all */
+            wrong = raster_parse(c.at, count, &r);
+            test_that(wrong && strstr(wrong, reason), "read beyond the end, length", &length, 1);
+        }
         if (accepted(&c, &r)) free(r.values);
         ADD(&c, "\n");
         check_refused(&c, c.count, "more bytes", kind);
@@ -275,12 +315,13 @@ static void damaged_scanlines(void) {
         FILE_OF("-Y 1 +X 8\n", "\x02\x02\0\x08\x89\x01\x88\x01\x88\x01\x88\x01"), /* run too long */
         FILE_OF("-Y 1 +X 8\n", "\x02\x02\0\x08\x84\x01\x85\x01\x88\x01\x88\x01\x88\x01"),
         FILE_OF("-Y 1 +X 8\n", "\x02\x02\0\x08\x0A\x01\x02\x03\x04\x05\x06\x07\x08\x09\x0A\x88\x01\x88\x01\x88\x01"),
-        FILE_OF("-Y 1 +X 8\n", "\x02\x02\0\x08\0\x01\x88\x01\x88\x01\x88\x01\x88\x01"), /* run of none */
-        FILE_OF("-Y 1 +X 3\n", "\x01\x01\x01\x02\x80\x80\x80\x80\x80\x80\x80\x80"),     /* nothing to repeat */
-        FILE_OF("-Y 2 +X 1\n", "\x80\x80\x80\x80\x01\x01\x01\x01"),                     /* nor from the row above */
-        FILE_OF("-Y 1 +X 3\n", "\x80\x80\x80\x80\x01\x01\x01\x03"),                     /* too many */
+        FILE_OF("-Y 1 +X 8\n", "\x02\x02\0\x08\0\x88\x01\x88\x01\x88\x01\x88\x01"), /* run of none */
+        FILE_OF("-Y 1 +X 3\n", "\x01\x01\x01\x02\x80\x80\x80\x80\x80\x80\x80\x80"), /* nothing to repeat */
+        FILE_OF("-Y 2 +X 1\n", "\x80\x80\x80\x80\x01\x01\x01\x01"),                 /* nor from the row above */
+        FILE_OF("-Y 1 +X 3\n", "\x80\x80\x80\x80\x01\x01\x01\x03"),                 /* too many */
         FILE_OF("-Y 1 +X 3\n", "\x80\x80\x80\x80\x01\x01\x01\0\x01\x01\x01\x01\x80\x80\x80\x80"),
-        FILE_OF("-Y 1 +X 3\n", "\x80\x80\x80\x80\x01\x01\x01\0\x01\x01\x01\0\x01\x01\x01\0\x80\x80\x80\x80"),
+        FILE_OF("-Y 1 +X 3\n",
+                "\x80\x80\x80\x80\x01\x01\x01\0\x01\x01\x01\0\x01\x01\x01\0\x80\x80\x80\x80\x80\x80\x80\x80"),
 #undef FILE_OF
     };
     size_t i;
@@ -514,6 +555,7 @@ static void files_written(void) {
 }
 
 const test_case raster_tests[] = {{"raster_pfm_orders", pfm_orders},
+                                  {"raster_pfm_spaces", pfm_spaces},
                                   {"raster_radiance_flat", radiance_flat},
                                   {"raster_radiance_scanlines", radiance_scanlines},
                                   {"raster_radiance_old_runs", radiance_old_runs},
