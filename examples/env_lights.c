@@ -203,7 +203,6 @@ static void find_moments(const environment *map, env_moments *moments, float *de
     band *bands = bands_of(map->height);
     sector *sectors = sectors_of(map, map->width);
     int y;
-    PARALLEL_FOR
     for (y = 0; y < map->height; y++) {
         const band b = bands[y];
         int x;
