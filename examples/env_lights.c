@@ -143,10 +143,10 @@ static void read_map(const char *path, environment *map) {
     if (bad) printf("%d values of %s are negative, 2^96 and more, or no numbers: they count as 0\n", bad, path);
 }
 
-/* Makes the mean over the sphere 1, and a column the leftmost: kernels do not reach around the map, so that the edge is
-   best where there is the least light. Returns that column's light over the mean. */
 typedef enum { SEAM_DARKEST, SEAM_BRIGHTEST, SEAM_FILE } seam_kind;
 
+/* Makes the mean over the sphere 1, and a column the leftmost: kernels do not reach around the map, so that the edge is
+   best where there is the least light. Returns that column's light over the mean. */
 static double prepare_map(environment *map, seam_kind seam, const char *path) {
     const int width = map->width, height = map->height;
     double *columns = (double *)allocate("map", (size_t)width, sizeof *columns), total = 0, light;
@@ -162,7 +162,8 @@ static double prepare_map(environment *map, seam_kind seam, const char *path) {
     map->first = 0;
     for (x = 0; x < width; x++) {
         total += columns[x];
-        if (seam == SEAM_DARKEST ? columns[x] < columns[map->first]
+        /* what differs by rounding only is the same */
+        if (seam == SEAM_DARKEST ? columns[x] < 0.999999 * columns[map->first]
                                  : seam == SEAM_BRIGHTEST && columns[x] > columns[map->first])
             map->first = x;
     }
@@ -653,30 +654,45 @@ static void paint(image *sheet, const sphere_view *view, option_size size, int c
     }
 }
 
-/* Shades with one rule and one number of lights, prints how fast and how well, and paints a column of the picture. */
-static void render(const env_source *source, const sphere_view *view, rule how, int count, unsigned seed,
-                   vec3 *reference[SURFACES], vec3 *radiance, image *sheet, option_size size) {
+typedef struct {
+    option_size size;
+    option_list lights;
+    int seed, shifts, seam;
+    const char *map, *out;
+} settings;
+
+/* Shades with one rule and one number of lights, prints how fast and how well, and paints a column of the picture. The
+   errors are root mean squares over shifts of the samples, since that of a few lights is a matter of luck, and the flux
+   is that of the worst of them; cells have nothing to shift. */
+static void render(const settings *o, const env_source *source, const sphere_view *view, rule how, int count,
+                   vec3 *reference[SURFACES], vec3 *radiance, image *sheet) {
+    const int turns = how == RULE_SPLIT ? 1 : o->shifts;
     env_light *lights = (env_light *)allocate("lights", (size_t)count, sizeof *lights);
     fis_cell *cells = (fis_cell *)allocate("lights", (size_t)count, sizeof *cells);
-    double times[REPEATS], errors[SURFACES], started, shading = 0;
-    int k;
-    for (k = 0; k < REPEATS; k++) {
-        started = progress_clock();
-        make_lights(source, how, count, seed, cells, lights);
-        times[k] = progress_clock() - started;
+    double times[REPEATS], squares[SURFACES] = {0}, worst = 1, build, shading = 0;
+    int turn, k;
+    for (turn = 0; turn < turns; turn++) {
+        double ratio;
+        for (k = 0; k < REPEATS; k++) {
+            const double started = progress_clock();
+            make_lights(source, how, count, (unsigned)o->seed + (unsigned)turn, cells, lights);
+            times[k] = progress_clock() - started;
+        }
+        for (k = SURFACE_MIRROR; k < SURFACES; k++) {
+            const double started = progress_clock();
+            if (k == SURFACE_MIRROR && (turn > 0 || !sheet)) continue;
+            shade(view, (surface_kind)k, lights, count, radiance);
+            if (k != SURFACE_MIRROR) shading += progress_clock() - started;
+            squares[k] += pow(rmse(radiance, reference[k], view->count), 2);
+            if (turn == 0 && sheet) paint(sheet, view, o->size, 1 + (int)how, k, radiance);
+        }
+        ratio = total_flux(lights, count) / source->flux;
+        if (fabs(ratio - 1) >= fabs(worst - 1)) worst = ratio;
     }
-    for (k = SURFACES - 1; k >= 0; k--) {
-        if (k == SURFACE_MIRROR && !sheet) continue;
-        started = progress_clock();
-        shade(view, (surface_kind)k, lights, count, radiance);
-        if (k != SURFACE_MIRROR) shading += progress_clock() - started;
-        errors[k] = rmse(radiance, reference[k], view->count);
-        if (sheet) paint(sheet, view, size, 1 + (int)how, k, radiance);
-    }
-    started = source->moments_ms + (how == RULE_SPLIT ? source->table_ms : source->pyramid_ms);
-    printf("%6d %-9s %8.2f %8.3f %9.1f %9.5f %9.5f %9.5f   %.6f\n", count, rule_names[how], started, median(times),
-           shading, errors[SURFACE_DIFFUSE], errors[SURFACE_GLOSSY], errors[SURFACE_ROUGH],
-           total_flux(lights, count) / source->flux);
+    build = source->moments_ms + (how == RULE_SPLIT ? source->table_ms : source->pyramid_ms);
+    printf("%6d %-9s %8.2f %8.3f %9.1f %9.5f %9.5f %9.5f   %.6f\n", count, rule_names[how], build, median(times),
+           shading / turns, sqrt(squares[SURFACE_DIFFUSE] / turns), sqrt(squares[SURFACE_ROUGH] / turns),
+           sqrt(squares[SURFACE_GLOSSY] / turns), worst);
     fflush(stdout);
     free(lights);
     free(cells);
@@ -684,17 +700,15 @@ static void render(const env_source *source, const sphere_view *view, rule how, 
 
 int main(int argc, char **argv) {
     static const char *const seams[] = {"darkest", "brightest", "file", NULL};
-    option_size size = {128, 128};
-    option_list counts = {4, {16, 64, 256, 1024}};
-    int seed = 0, seam = SEAM_DARKEST, i, k;
-    const char *map_path = NULL, *out = "build/env_lights", *wrong = "name too long";
+    settings o = {{128, 128}, {4, {16, 64, 256, 1024}}, 0, 4, SEAM_DARKEST, NULL, "build/env_lights"};
     const option options[] = {
-        {"--map FILE", OPTION_TEXT, &map_path, 0, 0, "PFM or Radiance file (without it a clear sky)", 0},
-        {"--lights N,...", OPTION_LIST, &counts, 1, 65536, "numbers of lights to try", 0},
-        {"--seam COLUMN", OPTION_CHOICE, &seam, 0, 0, "where the map is cut", seams},
-        OPTION_OF_SIZE(&size),
-        OPTION_OF_SEED(&seed),
-        OPTION_OF_OUT(&out),
+        {"--map FILE", OPTION_TEXT, &o.map, 0, 0, "PFM or Radiance file (without it a clear sky)", 0},
+        {"--lights N,...", OPTION_LIST, &o.lights, 1, 65536, "numbers of lights to try", 0},
+        {"--seam COLUMN", OPTION_CHOICE, &o.seam, 0, 0, "where the map is cut", seams},
+        {"--shifts N", OPTION_WHOLE, &o.shifts, 1, 1000, "shifts of the samples that errors are a mean over", 0},
+        OPTION_OF_SIZE(&o.size),
+        OPTION_OF_SEED(&o.seed),
+        OPTION_OF_OUT(&o.out),
         {0, OPTION_WHOLE, 0, 0, 0, 0, 0},
     };
     environment map;
@@ -702,44 +716,45 @@ int main(int argc, char **argv) {
     sphere_view view;
     vec3 *reference[SURFACES], *radiance;
     image sheet;
+    const char *wrong = "name too long";
     char path[1024];
     double edge;
+    int i, k;
 
     options_read(options, argc, argv,
                  "Lights spheres with an environment map as SG lights, by filtered sampling and by\n"
                  "cells of equal flux, and prints the speed and the error of each against the map.\n"
                  "A map is latitude by longitude: its top row up (+y), its centre ahead (-z), +x to the\n"
                  "right of that. One channel is grey. What is negative or no number counts as 0.");
-    if (snprintf(path, sizeof path, "%s.png", out) < (int)sizeof path) wrong = file_check(path);
+    if (snprintf(path, sizeof path, "%s.png", o.out) < (int)sizeof path) wrong = file_check(path);
     if (wrong) give_up(path, wrong);
-    if (map_path)
-        read_map(map_path, &map);
+    if (o.map)
+        read_map(o.map, &map);
     else
         paint_sky(&map);
-    edge = prepare_map(&map, (seam_kind)seam, map_path ? map_path : "sky");
-    view = see_sphere(size.width, size.height, 1);
-    sheet = image_create((1 + RULES) * (size.width + 2) - 2, SURFACES * (size.height + 2) - 2);
+    edge = prepare_map(&map, (seam_kind)o.seam, o.map ? o.map : "sky");
+    view = see_sphere(o.size.width, o.size.height, 1);
+    sheet = image_create((1 + RULES) * (o.size.width + 2) - 2, SURFACES * (o.size.height + 2) - 2);
     if (!sheet.pixels) give_up("image", "not enough memory");
     radiance = (vec3 *)allocate("image", (size_t)view.count, sizeof *radiance);
     for (k = 0; k < SURFACES; k++) reference[k] = (vec3 *)allocate("image", (size_t)view.count, sizeof **reference);
 
     printf("map %dx%d of mean radiance 1, cut at column %d, which has %.3f of a column's mean light\n", map.width,
            map.height, map.first, edge);
-    find_reference(&map, &view, size, reference);
-    for (k = 0; k < SURFACES; k++) paint(&sheet, &view, size, 0, k, reference[k]);
+    find_reference(&map, &view, o.size, reference);
+    for (k = 0; k < SURFACES; k++) paint(&sheet, &view, o.size, 0, k, reference[k]);
     source = prepare(&map);
     printf("%d pixels, times in ms: moments %.2f, pyramids %.2f, table %.2f\n\n", view.count, source.moments_ms,
            source.pyramid_ms, source.table_ms);
-    printf("lights rule         build sampling   shading   diffuse  alpha .1  alpha .3   light/map\n");
-    for (i = 0; i < counts.count; i++) {
+    printf("lights rule         build sampling   shading   diffuse  alpha .3  alpha .1   light/map\n");
+    for (i = 0; i < o.lights.count; i++) {
         for (k = 0; k < RULES; k++)
-            render(&source, &view, (rule)k, counts.value[i], (unsigned)seed, reference, radiance, i ? NULL : &sheet,
-                   size);
+            render(&o, &source, &view, (rule)k, o.lights.value[i], reference, radiance, i ? NULL : &sheet);
     }
     wrong = image_write_png(path, &sheet, 0.8f);
     if (wrong) give_up(path, wrong);
     printf("\nwrote %s: mirror, alpha .1, alpha .3 and diffuse; the map itself, then %d lights by each rule\n", path,
-           counts.value[0]);
+           o.lights.value[0]);
     for (k = 0; k < SURFACES; k++) free(reference[k]);
     free(radiance);
     free_source(&source);
