@@ -74,7 +74,7 @@ $(BUILD)/%_vector.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEA
 $(BUILD)/%_scalar.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEADERS) $(BUILD)/flags
 	$(BENCH_COMPILE) -DBENCH_SCALAR -fno-tree-vectorize -fno-tree-slp-vectorize -c $< -o $@
 
-# Each of tests/fuzz for some seconds, from the files that a script beside it makes; what it learns stays in $(BUILD)/fuzz.
+# Each of tests/fuzz for some seconds, from the files that a script beside it makes. What it learns stays in BUILD/fuzz.
 FUZZ_CC = $(if $(findstring clang,$(CC)),$(CC),clang)
 FUZZ_FLAGS = -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all
 
@@ -87,7 +87,8 @@ fuzz: $(BUILD)/flags
 	    [ ! -e tests/fuzz/$$name.sh ] || sh tests/fuzz/$$name.sh $(BUILD)/fuzz/$$name; \
 	    $(FUZZ_CC) -std=c99 $(WARN) -O1 -g $(FUZZ_FLAGS) tests/fuzz/$$name.c -o $(BUILD)/fuzz.$$name -lm; \
 	    $(BUILD)/fuzz.$$name -max_total_time=$(SECONDS) -timeout=10 -max_len=2048 -print_final_stats=1 \
-	        -artifact_prefix=$(BUILD)/fuzz.$$name. $(BUILD)/fuzz/$$name > $(BUILD)/fuzz.log 2>&1 || { cat $(BUILD)/fuzz.log; exit 1; }; \
+	        -artifact_prefix=$(BUILD)/fuzz.$$name. $(BUILD)/fuzz/$$name > $(BUILD)/fuzz.log 2>&1 || \
+	        { cat $(BUILD)/fuzz.log; exit 1; }; \
 	    grep -E 'DONE|stat::number_of_executed' $(BUILD)/fuzz.log; echo "ok     fuzz $$name, $(SECONDS) s"; \
 	done
 

@@ -56,7 +56,7 @@ static const char *parse(const content *c, size_t count, raster *r) {
 
 enum { GREY_LITTLE, GREY_BIG, COLOUR_LITTLE, COLOUR_BIG, FLAT, SCANLINES, OLD_RUNS, SAMPLES };
 
-/* A valid file of each kind. PFM: 1 2 / 3 4 in the grey ones, the lower row first; 1 to 6 from the top in the others. */
+/* A valid file of each kind. PFM, whose lower row comes first: 1 2 / 3 4 in grey, 1 to 6 from the top in colour. */
 static content sample(int kind) {
     content c = text("");
     switch (kind) {
