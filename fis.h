@@ -14,9 +14,10 @@
 
  Configuration, before inclusion:
 
-   macro        | default       | effect
-   LOBE_API     | static inline | linkage of every function
-   LOBE_ASSERT  | nothing       | called with each domain condition, e.g. assert
+   macro         | default       | effect
+   LOBE_API      | static inline | linkage of every function
+   LOBE_ASSERT   | nothing       | called with each domain condition, e.g. assert
+   LOBE_FIS_READ | its argument  | every texel that a lookup reads, and entry of a table that fis_split does, e.g. to count
 
  Conventions: u and v in [0, 1] run over the width and height of the image; texel (x, y) is
  image[(y * width + x) * channels + channel] and its centre u = (x + 0.5) / width. A texel of level l covers
@@ -59,6 +60,18 @@
 #ifndef LOBE_ASSERT
 #define LOBE_ASSERT(condition) ((void)0)
 #endif
+#ifndef LOBE_FIS_READ
+#define LOBE_FIS_READ(value) (value)
+#endif
+
+/* What C++ has under another name or not at all. It spares lobe_fis_halve checks that cost more than a short row. */
+#if defined(__GNUC__) || defined(_MSC_VER)
+#define LOBE_FIS_RESTRICT __restrict
+#elif defined(__cplusplus)
+#define LOBE_FIS_RESTRICT
+#else
+#define LOBE_FIS_RESTRICT restrict
+#endif
 
 /* ---- types ---- */
 
@@ -95,18 +108,19 @@ LOBE_API float lobe_fis_clamp(float x, float low, float high) {
     return x < low ? low : x > high ? high : x;
 }
 
-/* x, or 0 where it is not below 2^96 in magnitude. On bits, since -ffast-math knows no infinities. */
+/* x, or 0 where it is not below 2^96 in magnitude. On bits, since -ffast-math knows no infinities, and as signed
+   numbers, which vectors compare in one instruction. */
 LOBE_API float lobe_fis_clean(float x) {
-    unsigned bits;
+    int bits;
     memcpy(&bits, &x, sizeof bits);
-    return (bits & 0x7FFFFFFFu) < 0x6F800000u ? x : 0;
+    return (bits & 0x7FFFFFFF) < 0x6F800000 ? x : 0;
 }
 
 /* x, or 0 where it is not in [2^-96, 2^96) */
 LOBE_API float lobe_fis_clean_pdf(float x) {
-    unsigned bits;
+    int bits;
     memcpy(&bits, &x, sizeof bits);
-    return bits - 0x0F800000u < 0x60000000u ? x : 0;
+    return bits >= 0x0F800000 && bits < 0x6F800000 ? x : 0;
 }
 
 /* 4^level */
@@ -177,33 +191,52 @@ LOBE_API size_t fis_pyramid_size(int width, int height, int channels) {
     return ((size_t)p.offset[p.levels - 1] + 1) * (size_t)channels; /* the top level is one texel */
 }
 
-/* One row of a level from the two rows below it; there is no second one where bottom == top. */
-LOBE_API void lobe_fis_halve(float *out, const float *top, const float *bottom, int width, int channels) {
-    float below = bottom != top ? 0.25f : 0;
-    int x, c;
-    for (x = 0; x < width; x += 2) {
-        int next = x + 1 < width ? channels : 0;
-        float right = x + 1 < width ? 1.0f : 0.0f;
-        for (c = 0; c < channels; c++)
-            out[c] = 0.25f * (top[c] + right * top[c + next]) + below * (bottom[c] + right * bottom[c + next]);
-        out += channels;
-        top += channels + next;
-        bottom += channels + next;
+/* One row of a level from two of the level below, or from one: there is no second one where bottom == top. */
+LOBE_API void lobe_fis_halve(float *LOBE_FIS_RESTRICT out, const float *top, const float *bottom, int width,
+                             int channels) {
+    float scale = bottom != top ? 0.25f : 0.125f;
+    int pairs = width / 2, x, c;
+    if (channels == 1) { /* vector code along the row, otherwise along the channels */
+        for (x = 0; x < pairs; x++)
+            out[x] = scale * ((top[2 * x] + bottom[2 * x]) + (top[2 * x + 1] + bottom[2 * x + 1]));
+        out += pairs;
+        top += 2 * pairs;
+        bottom += 2 * pairs;
+    } else {
+        for (x = 0; x < pairs; x++) {
+            for (c = 0; c < channels; c++)
+                out[c] = scale * ((top[c] + bottom[c]) + (top[channels + c] + bottom[channels + c]));
+            out += channels;
+            top += 2 * channels;
+            bottom += 2 * channels;
+        }
     }
+    if (width % 2)
+        for (c = 0; c < channels; c++) out[c] = scale * (top[c] + bottom[c]);
 }
 
-/* Levels 1 and up from level 0 */
-LOBE_API void lobe_fis_reduce(const fis_pyramid *p, float *memory) {
-    int level, y;
-    for (level = 1; level < p->levels; level++) {
-        int width = lobe_fis_size(p->width, level - 1), height = lobe_fis_size(p->height, level - 1);
-        size_t row = (size_t)width * (size_t)p->channels;
-        const float *from = memory + (size_t)p->offset[level - 1] * (size_t)p->channels;
-        float *to = memory + (size_t)p->offset[level] * (size_t)p->channels;
-        for (y = 0; y < height; y += 2) {
-            lobe_fis_halve(to, from, y + 1 < height ? from + row : from, width, p->channels);
-            from += 2 * row;
-            to += (size_t)lobe_fis_size(width, 1) * (size_t)p->channels;
+/* Every level from the image, which may be the memory's. Two rows of a level are halved as soon as they are there, while
+   they are in the cache. */
+LOBE_API void lobe_fis_fill(const fis_pyramid *p, float *memory, const float *image, int is_pdf) {
+    size_t channels = (size_t)p->channels, count = (size_t)p->width * channels, i;
+    int y;
+    for (y = 0; y < p->height; y++) {
+        const float *from = image + (size_t)y * count;
+        float *to = memory + (size_t)y * count;
+        int level, row = y; /* the level's last one so far */
+        if (is_pdf)
+            for (i = 0; i < count; i++) to[i] = lobe_fis_clean_pdf(from[i]);
+        else
+            for (i = 0; i < count; i++) to[i] = lobe_fis_clean(from[i]);
+        for (level = 0; level + 1 < p->levels; level++) {
+            int width = lobe_fis_size(p->width, level), height = lobe_fis_size(p->height, level);
+            size_t size = (size_t)width * channels, half = (size_t)lobe_fis_size(width, 1) * channels;
+            const float *bottom = memory + (size_t)p->offset[level] * channels + (size_t)row * size;
+            const float *top = row % 2 ? bottom - size : bottom;
+            if (top == bottom && row + 1 < height) break;
+            row /= 2;
+            lobe_fis_halve(memory + (size_t)p->offset[level + 1] * channels + (size_t)row * half, top, bottom, width,
+                           p->channels);
         }
     }
 }
@@ -222,9 +255,7 @@ LOBE_API void lobe_fis_reduce(const fis_pyramid *p, float *memory) {
 */
 LOBE_API fis_pyramid fis_build(float *memory, const float *image, int width, int height, int channels) {
     fis_pyramid p = lobe_fis_layout(width, height, channels);
-    size_t i, count = (size_t)width * (size_t)height * (size_t)channels;
-    for (i = 0; i < count; i++) memory[i] = lobe_fis_clean(image[i]);
-    lobe_fis_reduce(&p, memory);
+    lobe_fis_fill(&p, memory, image, 0);
     p.texels = memory;
     return p;
 }
@@ -249,11 +280,10 @@ LOBE_API fis_pyramid fis_build_pdf(float *memory, const float *image, int width,
     fis_pyramid p = lobe_fis_layout(width, height, 1);
     size_t i, count = (size_t)width * (size_t)height;
     p.texels = memory;
-    for (i = 0; i < count; i++) memory[i] = lobe_fis_clean_pdf(image[i]);
-    lobe_fis_reduce(&p, memory);
+    lobe_fis_fill(&p, memory, image, 1);
     if (!(lobe_fis_total(&p) > 0)) {
         for (i = 0; i < count; i++) memory[i] = 1;
-        lobe_fis_reduce(&p, memory);
+        lobe_fis_fill(&p, memory, memory, 1);
     }
     return p;
 }
@@ -287,8 +317,9 @@ LOBE_API float lobe_fis_mix(float a, float b, float t) {
 }
 
 LOBE_API float lobe_fis_bilinear(const lobe_fis_taps *taps, int channel) {
-    return lobe_fis_mix(lobe_fis_mix(taps->texel[0][channel], taps->texel[1][channel], taps->x),
-                        lobe_fis_mix(taps->texel[2][channel], taps->texel[3][channel], taps->x), taps->y);
+    float a = LOBE_FIS_READ(taps->texel[0][channel]), b = LOBE_FIS_READ(taps->texel[1][channel]);
+    float c = LOBE_FIS_READ(taps->texel[2][channel]), d = LOBE_FIS_READ(taps->texel[3][channel]);
+    return lobe_fis_mix(lobe_fis_mix(a, b, taps->x), lobe_fis_mix(c, d, taps->x), taps->y);
 }
 
 /*
@@ -637,8 +668,11 @@ LOBE_API double lobe_fis_mass(const fis_split_table *table, double x, double y) 
     int column = x < table->width ? (int)x : table->width - 1, row = y < table->height ? (int)y : table->height - 1;
     const double *above = table->sums + (size_t)row * ((size_t)table->width + 1) + column;
     const double *below = above + table->width + 1;
-    double a = above[0] + (above[1] - above[0]) * (x - column), b = below[0] + (below[1] - below[0]) * (x - column);
-    return a + (b - a) * (y - row);
+    double a = LOBE_FIS_READ(above[0]), b = LOBE_FIS_READ(above[1]);
+    double c = LOBE_FIS_READ(below[0]), d = LOBE_FIS_READ(below[1]);
+    a += (b - a) * (x - column);
+    c += (d - c) * (x - column);
+    return a + (c - a) * (y - row);
 }
 
 /* Mass between two rows and left of x; or between two columns and above it, where vertical */
@@ -737,13 +771,12 @@ LOBE_API void fis_cell_sum(const float *image, int width, int height, int channe
         double sums[16] = {0};
         for (y = y0; y < y1; y++) {
             const float *texels = image + ((size_t)y * (size_t)width + (size_t)x0) * (size_t)channels + first;
-            float row[16] = {0}, height_inside = lobe_fis_overlap(y, v0, v1);
+            float height_inside = lobe_fis_overlap(y, v0, v1);
             for (x = x0; x < x1; x++) {
-                float inside = lobe_fis_overlap(x, u0, u1);
-                for (c = 0; c < count; c++) row[c] += inside * lobe_fis_clean(texels[c]);
+                float inside = height_inside * lobe_fis_overlap(x, u0, u1);
+                for (c = 0; c < count; c++) sums[c] += (double)(inside * lobe_fis_clean(texels[c]));
                 texels += channels;
             }
-            for (c = 0; c < count; c++) sums[c] += (double)height_inside * (double)row[c];
         }
         for (c = 0; c < count; c++) out[first + c] = (float)sums[c];
     }
