@@ -540,7 +540,7 @@ LOBE_API float lobe_fis_density_level(const fis_pyramid *pdf, float p, int n, fl
    Source:   Krivanek and Colbert 2008; 002, Eq. 1
 */
 LOBE_API float fis_level_density(const fis_pyramid *pdf, const fis_sample *s, int n, float k) {
-    return lobe_fis_density_level(pdf, lobe_fis_relative(pdf, s, 0) * lobe_fis_texels(pdf), n, k);
+    return lobe_fis_density_level(pdf, lobe_fis_share(pdf, s, 0) * lobe_fis_texels(pdf), n, k);
 }
 
 /*
@@ -597,7 +597,7 @@ LOBE_API float lobe_fis_density_scale(const fis_pyramid *pdf, float p, int n) {
    Source:   002, Eq. 4
 */
 LOBE_API float fis_scale_density(const fis_pyramid *pdf, const fis_sample *s, int n) {
-    return lobe_fis_density_scale(pdf, lobe_fis_relative(pdf, s, 0) * lobe_fis_texels(pdf), n);
+    return lobe_fis_density_scale(pdf, lobe_fis_share(pdf, s, 0) * lobe_fis_texels(pdf), n);
 }
 
 /*

@@ -1,6 +1,5 @@
 /* Unit tests of fis.h. References are sums and lookups in double, made from the image and not from the pyramid. */
-#include "test.h"
-#include "../fis.h"
+#include "fis_study.h"
 #include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,42 +10,7 @@ static double rounded(double x) {
     return (double)single;
 }
 
-/* ---- images ---- */
-
-enum { CONSTANT, SMOOTH, CHECKERBOARD, POWER, OCTAVES, SPARSE, SPIKE, ROW, LONE, KINDS };
-
-static double wave(double x, double y) {
-    return 1 + 0.6 * sin(6.2 * x + 1) * cos(5.1 * y) + 0.3 * sin(14 * x - 9 * y);
-}
-
-static float *make_image(int kind, int width, int height, unsigned long long seed) {
-    float *image = (float *)malloc((size_t)width * (size_t)height * sizeof *image);
-    test_rng rng = {seed};
-    double phase[8][3];
-    int x, y, i;
-    for (i = 0; i < 24; i++) phase[i / 3][i % 3] = 6.283185307179586 * test_uniform(&rng);
-    for (y = 0; y < height; y++) {
-        for (x = 0; x < width; x++) {
-            double s = (x + 0.5) / width, t = (y + 0.5) / height, random = test_uniform(&rng), value = 1;
-            if (kind == SMOOTH) value = wave(s, t);
-            if (kind == CHECKERBOARD) value = (x + y) & 1 ? 0.01 + random : 1e-3;
-            if (kind == POWER) value = pow(random, 8);
-            if (kind == OCTAVES) {
-                for (i = 0; i < 8; i++) /* 1/f */
-                    value += sin((1 << i) * (6.3 * s * cos(phase[i][0]) + 6.3 * t * sin(phase[i][0])) + phase[i][1]) /
-                             (1 << i);
-                value = exp(2 * value);
-            }
-            if (kind == SPARSE) value = random < 0.02 ? 0.1 + test_uniform(&rng) : 0;
-            if (kind == SPIKE) value = x == width / 3 && y == height / 2 ? 1e5 : 0.5 + random;
-            if (kind == ROW) value = y == height / 2 ? 0.1 + random : 0;
-            if (kind == LONE) value = x == width - 1 && y == height / 3 ? 7 : 0;
-            image[(size_t)y * (size_t)width + (size_t)x] = (float)value;
-        }
-    }
-    if (kind == SPARSE) image[0] = 1; /* never without mass */
-    return image;
-}
+/* ---- pyramids ---- */
 
 static const int sizes[][2] = {{1, 1}, {2, 3}, {1, 97}, {97, 1}, {37, 53}, {64, 64}, {128, 32}, {129, 65}, {200, 255}};
 enum { SIZES = (int)(sizeof sizes / sizeof *sizes) };
@@ -58,72 +22,6 @@ static fis_pyramid build_pdf(const float *image, int width, int height) {
 
 static void free_pyramid(fis_pyramid p) {
     free((float *)p.texels);
-}
-
-/* ---- reference ---- */
-
-typedef struct {
-    double *level[LOBE_FIS_LEVELS]; /* sum over the texels that a level's texel covers, over 4^level */
-    double total;
-    int width, height, levels;
-} reference;
-
-static int halved(int size, int level) {
-    return (size + (1 << level) - 1) / (1 << level);
-}
-
-static reference make_reference(const float *image, int width, int height) {
-    reference r;
-    int level, x, y;
-    memset(&r, 0, sizeof r);
-    r.width = width;
-    r.height = height;
-    do {
-        double *sums;
-        int w = halved(width, r.levels);
-        sums = r.level[r.levels] = (double *)calloc((size_t)w * (size_t)halved(height, r.levels), sizeof *sums);
-        for (y = 0; y < height; y++)
-            for (x = 0; x < width; x++)
-                sums[(y >> r.levels) * w + (x >> r.levels)] += ldexp((double)image[y * width + x], -2 * r.levels);
-        level = r.levels++;
-    } while (halved(width, level) > 1 || halved(height, level) > 1);
-    r.total = ldexp(r.level[level][0], 2 * level);
-    return r;
-}
-
-static void free_reference(reference r) {
-    int level;
-    for (level = 0; level < r.levels; level++) free(r.level[level]);
-}
-
-static double clamped(double x, double low, double high) {
-    return x < low ? low : x > high ? high : x;
-}
-
-static double bilinear(const reference *r, double u, double v, int level) {
-    int w = halved(r->width, level), h = halved(r->height, level), x0, y0, x1, y1;
-    double x = clamped(ldexp(u * r->width, -level) - 0.5, 0, w - 1);
-    double y = clamped(ldexp(v * r->height, -level) - 0.5, 0, h - 1);
-    const double *texels = r->level[level];
-    x0 = (int)x;
-    y0 = (int)y;
-    x1 = x0 + 1 < w ? x0 + 1 : x0;
-    y1 = y0 + 1 < h ? y0 + 1 : y0;
-    x -= x0;
-    y -= y0;
-    return (1 - y) * ((1 - x) * texels[y0 * w + x0] + x * texels[y0 * w + x1]) +
-           y * ((1 - x) * texels[y1 * w + x0] + x * texels[y1 * w + x1]);
-}
-
-static double trilinear(const reference *r, double u, double v, double level) {
-    int fine = (int)clamped(level, 0, r->levels - 1), coarse = fine + 1 < r->levels ? fine + 1 : fine;
-    double t = clamped(level, 0, r->levels - 1) - fine;
-    return (1 - t) * bilinear(r, u, v, fine) + t * bilinear(r, u, v, coarse);
-}
-
-/* 4^l p(x, l) / M of 002, Eq. 3 */
-static double share(const reference *r, double u, double v, double level) {
-    return exp2(2 * level) * trilinear(r, u, v, level) / r->total;
 }
 
 /* The lowest and highest value of the share when the position moves by 2^-23 and the level by its last bit: what
@@ -174,8 +72,6 @@ static double bisect(const reference *r, double u, double v, double wanted, int 
     }
     return 0.5 * (low + high);
 }
-
-/* ---- pyramids ---- */
 
 static void check_integral(test_bound *bound, int width, int height, int channels, int pdf) {
     size_t count = (size_t)width * (size_t)height * (size_t)channels, i;
