@@ -117,11 +117,11 @@ LOBE_API float lobe_fis_clean(float x) {
     return (bits & 0x7FFFFFFF) < 0x6F800000 ? x : 0;
 }
 
-/* x, or 0 where it is not in [2^-96, 2^96) */
+/* x, or 0 where it is not in [2^-96, 2^96), whose bits are the sums from -2^31 to -2^29 */
 LOBE_API float lobe_fis_clean_pdf(float x) {
-    int bits;
+    unsigned bits;
     memcpy(&bits, &x, sizeof bits);
-    return bits >= 0x0F800000 && bits < 0x6F800000 ? x : 0;
+    return (int)(bits + 0x70800000u) < -0x20000000 ? x : 0;
 }
 
 /* 4^level */
