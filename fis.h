@@ -251,8 +251,8 @@ LOBE_API void lobe_fis_fill(const fis_pyramid *p, float *memory, const float *im
    returns    the pyramid in memory. Bad texels: see the head of this file
 
    Rounding: 4^l times the top texel is the image's sum to 2 (levels - 1) 2^-24 of the sum of magnitudes at the worst
-             [bound fis_build levels 2]; of noise, in every size that was tried up to 32768 by 1 and 1920 by 1088, to 2e-7
-             [bound fis_build rel 2e-7]
+             [bound fis_build levels 2]; of noise, up to 32768 by 1 and 1920 by 1088 texels, to 2e-7
+             [bound fis_build rel 2e-7]. Half as much more with -ffast-math, which may add in another order
    Model:    exact
    Source:   box filter, sizes rounded up and missing texels 0, so that no texel of an odd size is lost
 */

@@ -73,6 +73,15 @@ static double bisect(const reference *r, double u, double v, double wanted, int 
     return 0.5 * (low + high);
 }
 
+/* With -ffast-math four texels may be added one by one: three roundings instead of two on the way */
+static test_bound integral_bound(const char *function, const char *kind) {
+    test_bound bound = test_bound_of("fis.h", function, kind);
+#ifdef __FAST_MATH__
+    bound.limit *= 1.5;
+#endif
+    return bound;
+}
+
 static void check_integral(test_bound *bound, int width, int height, int channels, int pdf) {
     size_t count = (size_t)width * (size_t)height * (size_t)channels, i;
     size_t size = fis_pyramid_size(width, height, channels);
@@ -107,8 +116,7 @@ static void check_integral(test_bound *bound, int width, int height, int channel
 static void integral(void) {
     static const int sides[] = {1, 2, 3, 31, 32, 33, 127, 128, 129, 511, 512, 513, 1023, 1025, 1087, 1088, 1919, 1920};
     enum { SIDES = (int)(sizeof sides / sizeof *sides) };
-    test_bound bound = test_bound_of("fis.h", "fis_build", "rel");
-    test_bound pdf = test_bound_of("fis.h", "fis_build_pdf", "rel");
+    test_bound bound = integral_bound("fis_build", "rel"), pdf = integral_bound("fis_build_pdf", "rel");
     int width, height, i, k;
     for (width = 1; width < 34; width++) {
         for (height = 1; height < 34; height++) {
@@ -134,7 +142,7 @@ static void integral(void) {
    so much that every sum with it is halfway to the next float and is rounded down. */
 static void integral_worst(void) {
     enum { SIDE = 512 };
-    test_bound bound = test_bound_of("fis.h", "fis_build", "levels");
+    test_bound bound = integral_bound("fis_build", "levels");
     float *image = (float *)malloc(SIDE * SIDE * sizeof *image);
     double sum = 0;
     fis_pyramid p;
@@ -149,8 +157,10 @@ static void integral_worst(void) {
         }
     }
     p = build_pdf(image, SIDE, SIDE);
+#ifndef __FAST_MATH__
     test_that(sum - (double)lobe_fis_total(&p) > 0.9 * bound.limit * (p.levels - 1) * TEST_EPSILON,
               "the bound is not far from this", 0, 0);
+#endif
     test_within(&bound, (double)lobe_fis_total(&p), sum, (p.levels - 1) * TEST_EPSILON * sum, 0, 0);
     test_report(&bound);
     free_pyramid(p);
@@ -897,13 +907,13 @@ static void quality(void) {
     static study_kernel kernels[COUNT];
     test_bound reads = test_bound_of("fis.h", "fis_level", "reads");
     test_bound firefly = test_bound_of("fis.h", "fis_scale", "firefly");
-    double mean_reads = 0, in[4];
+    double mean_reads = 0, lost[STUDY_METHODS] = {0}, in[4];
     int kind, method, i;
     for (kind = SMOOTH; kind <= ROW; kind++) {
         float *importance = make_image(kind, SIDE, SIDE, 7), *power = make_power(importance, SIDE, SIDE);
         study s = study_begin(importance, power, SIDE, SIDE);
         study_quality q[STUDY_METHODS];
-        int rough = kind == CHECKERBOARD || kind == POWER || kind == BRSM || kind == SPARSE;
+        int noise = kind == CHECKERBOARD || kind == POWER || kind == BRSM;
         double most = 0, sum[2] = {0};
         for (i = 0; i < SIDE * SIDE; i++) {
             sum[0] += (double)importance[i];
@@ -930,20 +940,24 @@ static void quality(void) {
         in[2] = q[STUDY_SPLIT].gap, in[3] = q[STUDY_SPLIT].overlap;
         test_that(in[2] == 0 && in[3] == 0, "no gap and no overlap", in, 4);
         test_that(fabs(q[STUDY_SPLIT].total - 1) < 1e-6, "the total", &q[STUDY_SPLIT].total, 1);
-        for (method = STUDY_NEAREST; rough && method <= STUDY_DENSITY; method++) {
+        for (method = 0; (noise || kind == SPARSE) && method < STUDY_METHODS; method++) {
+            lost[method] += fabs(q[method].total - 1);
+            if (method > STUDY_DENSITY) continue;
             in[1] = method;
             in[2] = q[method].gap + q[method].overlap, in[3] = q[STUDY_FAST].gap + q[STUDY_FAST].overlap;
             test_that(in[2] > 1.1 * in[3], "less gap and overlap than by the density", in, 4);
-            in[2] = fabs(q[method].total - 1), in[3] = fabs(q[STUDY_FAST].total - 1);
-            if (kind != BRSM || method != STUDY_NEAREST) test_that(in[2] > 5 * in[3], "nearer to the total", in, 4);
             in[2] = q[method].firefly, in[3] = q[STUDY_FAST].firefly;
-            if (kind != SPARSE) test_that(in[2] > 2 * in[3], "no fireflies", in, 4);
+            if (noise) test_that(in[2] > 2 * in[3], "no fireflies", in, 4);
         }
         study_end(&s);
         free(power);
         free(importance);
     }
-    test_within(&reads, fmax(mean_reads, 0), 0, 1, 0, 0);
+    for (method = STUDY_NEAREST; method <= STUDY_DENSITY; method++) {
+        in[0] = method, in[1] = lost[method], in[2] = lost[STUDY_FAST];
+        test_that(in[1] > 10 * in[2], "nearer to the total than by the density", in, 3);
+    }
+    test_within(&reads, mean_reads, 0, 1, 0, 0);
     test_report(&reads);
     test_report(&firefly);
 }
