@@ -503,9 +503,8 @@ LOBE_API float lobe_fis_relative(const fis_pyramid *pdf, const fis_sample *s, fl
    iterations the paper has 12; each halves the error and takes a trilinear lookup. 0 or more
    returns    level in (0, levels - 1): the middle of the last interval, so the ends are approached and not reached
 
-   Rounding: on dense PDFs levels to 2e-5 where there is one solution, besides the model error
-             [bound fis_level_bisect abs 2e-5]
-   Model:    (levels - 1) / 2^(iterations + 1); as fis_level where there is more than one solution
+   Rounding: after 60 iterations, where there is one solution, as fis_level   [bound fis_level_bisect residual 5e-7]
+   Model:    (levels - 1) / 2^(iterations + 1) at most; as fis_level where there is more than one solution
    Source:   000, Algorithm 1; 002, Eq. 3
 */
 LOBE_API float fis_level_bisect(const fis_pyramid *pdf, const fis_sample *s, int n, float k, int iterations) {
