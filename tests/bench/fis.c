@@ -101,6 +101,12 @@ static struct {
     float *image, *memory;
 } built;
 
+/* The first address in there that is a multiple of 64 bytes, which the widest vectors want */
+static float *aligned(void *memory) {
+    char *at = (char *)memory;
+    return (float *)(void *)(at + (64 - (size_t)at % 64) % 64);
+}
+
 /* As many floats as a pyramid of the image has, read and written */
 static void move(void) {
     size_t count = (size_t)built.width * (size_t)built.height * (size_t)built.channels, i;
@@ -127,14 +133,17 @@ static void print_builds(void) {
     size_t size, i, count;
     for (size = 0; size < sizeof sizes / sizeof *sizes; size++) {
         double seconds[3];
+        void *memory[2];
         int forms, form;
         built.width = sizes[size][0];
         built.height = sizes[size][1];
         built.channels = sizes[size][2];
         forms = built.channels == 1 ? 3 : 2;
         count = fis_pyramid_size(built.width, built.height, built.channels);
-        built.image = (float *)allocate(count * sizeof(float));
-        built.memory = (float *)allocate(count * sizeof(float));
+        memory[0] = allocate(count * sizeof(float) + 64);
+        memory[1] = allocate(count * sizeof(float) + 64);
+        built.image = aligned(memory[0]);
+        built.memory = aligned(memory[1]);
         for (i = 0; i < count; i++) built.image[i] = (float)test_uniform(&test_random);
         bench_medians(run_build, forms, seconds);
         printf("fis_build: %d by %d, %d channels\n  %-18s %8s %7s\n", built.width, built.height, built.channels, "",
@@ -143,8 +152,8 @@ static void print_builds(void) {
             printf("  %-18s %8.3f %7.2f\n", names[form], 1e3 * seconds[form], seconds[form] / seconds[0]);
         printf("\n");
         fflush(stdout);
-        free(built.memory);
-        free(built.image);
+        free(memory[1]);
+        free(memory[0]);
     }
 }
 
