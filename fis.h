@@ -14,15 +14,17 @@
 
  Configuration, before inclusion:
 
-   macro        | default       | effect
-   LOBE_API     | static inline | linkage of every function
-   LOBE_ASSERT  | nothing       | called with each domain condition, e.g. assert
+   macro         | default       | effect
+   LOBE_API      | static inline | linkage of every function
+   LOBE_ASSERT   | nothing       | called with each domain condition, e.g. assert
+   LOBE_FIS_READ | its argument  | every texel that a lookup reads, and entry of a table that fis_split does, e.g. to count
 
  Conventions: u and v in [0, 1] run over the width and height of the image; texel (x, y) is
  image[(y * width + x) * channels + channel] and its centre u = (x + 0.5) / width. A texel of level l covers
  2^l by 2^l texels of the image. Its value is their sum over 4^l, where texels beyond the image's border count as 0:
  a mean inside the image, and everywhere 4^l times it is a total. A total is a sum over texels. M is the number of
- texels of the image, N or n the number of samples. The top level is one texel.
+ texels of the image, N or n the number of samples. The top level is one texel. Errors of what is computed from a
+ pyramid are stated for the texels that it has, which fis_build has rounded.
 
  Images are 1 to 32768 texels wide and high. Texels that are infinite, NaN or 2^96 (7.9e28) and more in magnitude
  count as 0. In a PDF so do negative ones and those below 2^-96 (1.3e-29), and a PDF without any mass is uniform.
@@ -58,6 +60,18 @@
 #endif
 #ifndef LOBE_ASSERT
 #define LOBE_ASSERT(condition) ((void)0)
+#endif
+#ifndef LOBE_FIS_READ
+#define LOBE_FIS_READ(value) (value)
+#endif
+
+/* What C++ has under another name or not at all. It spares lobe_fis_halve checks that cost more than a short row. */
+#if defined(__GNUC__) || defined(_MSC_VER)
+#define LOBE_FIS_RESTRICT __restrict
+#elif defined(__cplusplus)
+#define LOBE_FIS_RESTRICT
+#else
+#define LOBE_FIS_RESTRICT restrict
 #endif
 
 /* ---- types ---- */
@@ -95,18 +109,19 @@ LOBE_API float lobe_fis_clamp(float x, float low, float high) {
     return x < low ? low : x > high ? high : x;
 }
 
-/* x, or 0 where it is not below 2^96 in magnitude. On bits, since -ffast-math knows no infinities. */
+/* x, or 0 where it is not below 2^96 in magnitude. On bits, since -ffast-math knows no infinities, and as signed
+   numbers, which vectors compare in one instruction. */
 LOBE_API float lobe_fis_clean(float x) {
-    unsigned bits;
+    int bits;
     memcpy(&bits, &x, sizeof bits);
-    return (bits & 0x7FFFFFFFu) < 0x6F800000u ? x : 0;
+    return (bits & 0x7FFFFFFF) < 0x6F800000 ? x : 0;
 }
 
-/* x, or 0 where it is not in [2^-96, 2^96) */
+/* x, or 0 where it is not in [2^-96, 2^96), whose bits are the sums from -2^31 to -2^29 */
 LOBE_API float lobe_fis_clean_pdf(float x) {
     unsigned bits;
     memcpy(&bits, &x, sizeof bits);
-    return bits - 0x0F800000u < 0x60000000u ? x : 0;
+    return (int)(bits + 0x70800000u) < -0x20000000 ? x : 0;
 }
 
 /* 4^level */
@@ -177,33 +192,52 @@ LOBE_API size_t fis_pyramid_size(int width, int height, int channels) {
     return ((size_t)p.offset[p.levels - 1] + 1) * (size_t)channels; /* the top level is one texel */
 }
 
-/* One row of a level from the two rows below it; there is no second one where bottom == top. */
-LOBE_API void lobe_fis_halve(float *out, const float *top, const float *bottom, int width, int channels) {
-    float below = bottom != top ? 0.25f : 0;
-    int x, c;
-    for (x = 0; x < width; x += 2) {
-        int next = x + 1 < width ? channels : 0;
-        float right = x + 1 < width ? 1.0f : 0.0f;
-        for (c = 0; c < channels; c++)
-            out[c] = 0.25f * (top[c] + right * top[c + next]) + below * (bottom[c] + right * bottom[c + next]);
-        out += channels;
-        top += channels + next;
-        bottom += channels + next;
+/* One row of a level from two of the level below, or from one: there is no second one where bottom == top. */
+LOBE_API void lobe_fis_halve(float *LOBE_FIS_RESTRICT out, const float *top, const float *bottom, int width,
+                             int channels) {
+    float scale = bottom != top ? 0.25f : 0.125f;
+    int pairs = width / 2, x, c;
+    if (channels == 1) { /* vector code along the row, otherwise along the channels */
+        for (x = 0; x < pairs; x++)
+            out[x] = scale * ((top[2 * x] + bottom[2 * x]) + (top[2 * x + 1] + bottom[2 * x + 1]));
+        out += pairs;
+        top += 2 * pairs;
+        bottom += 2 * pairs;
+    } else {
+        for (x = 0; x < pairs; x++) {
+            for (c = 0; c < channels; c++)
+                out[c] = scale * ((top[c] + bottom[c]) + (top[channels + c] + bottom[channels + c]));
+            out += channels;
+            top += 2 * channels;
+            bottom += 2 * channels;
+        }
     }
+    if (width % 2)
+        for (c = 0; c < channels; c++) out[c] = scale * (top[c] + bottom[c]);
 }
 
-/* Levels 1 and up from level 0 */
-LOBE_API void lobe_fis_reduce(const fis_pyramid *p, float *memory) {
-    int level, y;
-    for (level = 1; level < p->levels; level++) {
-        int width = lobe_fis_size(p->width, level - 1), height = lobe_fis_size(p->height, level - 1);
-        size_t row = (size_t)width * (size_t)p->channels;
-        const float *from = memory + (size_t)p->offset[level - 1] * (size_t)p->channels;
-        float *to = memory + (size_t)p->offset[level] * (size_t)p->channels;
-        for (y = 0; y < height; y += 2) {
-            lobe_fis_halve(to, from, y + 1 < height ? from + row : from, width, p->channels);
-            from += 2 * row;
-            to += (size_t)lobe_fis_size(width, 1) * (size_t)p->channels;
+/* Every level from the image, which may be the memory's. Two rows of a level are halved as soon as they are there, while
+   they are in the cache. */
+LOBE_API void lobe_fis_fill(const fis_pyramid *p, float *memory, const float *image, int is_pdf) {
+    size_t channels = (size_t)p->channels, count = (size_t)p->width * channels, i;
+    int y;
+    for (y = 0; y < p->height; y++) {
+        const float *from = image + (size_t)y * count;
+        float *to = memory + (size_t)y * count;
+        int level, row = y; /* the level's last one so far */
+        if (is_pdf)
+            for (i = 0; i < count; i++) to[i] = lobe_fis_clean_pdf(from[i]);
+        else
+            for (i = 0; i < count; i++) to[i] = lobe_fis_clean(from[i]);
+        for (level = 0; level + 1 < p->levels; level++) {
+            int width = lobe_fis_size(p->width, level), height = lobe_fis_size(p->height, level);
+            size_t size = (size_t)width * channels, half = (size_t)lobe_fis_size(width, 1) * channels;
+            const float *bottom = memory + (size_t)p->offset[level] * channels + (size_t)row * size;
+            const float *top = row % 2 ? bottom - size : bottom;
+            if (top == bottom && row + 1 < height) break;
+            row /= 2;
+            lobe_fis_halve(memory + (size_t)p->offset[level + 1] * channels + (size_t)row * half, top, bottom, width,
+                           p->channels);
         }
     }
 }
@@ -211,20 +245,20 @@ LOBE_API void lobe_fis_reduce(const fis_pyramid *p, float *memory) {
 /*
  fis_build - mean pyramid of an image
 
-   memory     fis_pyramid_size floats, that stay as long as the pyramid is used
+   memory     fis_pyramid_size floats, that stay as long as the pyramid is used; fastest at a multiple of 64 bytes
    image      interleaved, any sign; may be the same as memory
    channels   1 or more
    returns    the pyramid in memory. Bad texels: see the head of this file
 
-   Rounding: 4^l times the top texel is the image's sum to 2e-7 of the sum of magnitudes   [bound fis_build rel 2e-7]
+   Rounding: 4^l times the top texel is the image's sum to 2 (levels - 1) 2^-24 of the sum of magnitudes at the worst
+             [bound fis_build levels 2]; of noise, up to 32768 by 1 and 1920 by 1088 texels, to 2e-7
+             [bound fis_build rel 2e-7]. Half as much more with -ffast-math, which may add in another order
    Model:    exact
    Source:   box filter, sizes rounded up and missing texels 0, so that no texel of an odd size is lost
 */
 LOBE_API fis_pyramid fis_build(float *memory, const float *image, int width, int height, int channels) {
     fis_pyramid p = lobe_fis_layout(width, height, channels);
-    size_t i, count = (size_t)width * (size_t)height * (size_t)channels;
-    for (i = 0; i < count; i++) memory[i] = lobe_fis_clean(image[i]);
-    lobe_fis_reduce(&p, memory);
+    lobe_fis_fill(&p, memory, image, 0);
     p.texels = memory;
     return p;
 }
@@ -241,7 +275,7 @@ LOBE_API float lobe_fis_total(const fis_pyramid *pdf) {
    image      one channel; may be the same as memory
    returns    the pyramid in memory. Bad texels: see the head of this file. No mass at all: every texel is 1
 
-   Rounding: as fis_build   [bound fis_build_pdf rel 2e-7]
+   Rounding: as fis_build, of noise   [bound fis_build_pdf rel 2e-7]
    Model:    exact
    Source:   002, section 3
 */
@@ -249,11 +283,10 @@ LOBE_API fis_pyramid fis_build_pdf(float *memory, const float *image, int width,
     fis_pyramid p = lobe_fis_layout(width, height, 1);
     size_t i, count = (size_t)width * (size_t)height;
     p.texels = memory;
-    for (i = 0; i < count; i++) memory[i] = lobe_fis_clean_pdf(image[i]);
-    lobe_fis_reduce(&p, memory);
+    lobe_fis_fill(&p, memory, image, 1);
     if (!(lobe_fis_total(&p) > 0)) {
         for (i = 0; i < count; i++) memory[i] = 1;
-        lobe_fis_reduce(&p, memory);
+        lobe_fis_fill(&p, memory, memory, 1);
     }
     return p;
 }
@@ -287,8 +320,9 @@ LOBE_API float lobe_fis_mix(float a, float b, float t) {
 }
 
 LOBE_API float lobe_fis_bilinear(const lobe_fis_taps *taps, int channel) {
-    return lobe_fis_mix(lobe_fis_mix(taps->texel[0][channel], taps->texel[1][channel], taps->x),
-                        lobe_fis_mix(taps->texel[2][channel], taps->texel[3][channel], taps->x), taps->y);
+    float a = LOBE_FIS_READ(taps->texel[0][channel]), b = LOBE_FIS_READ(taps->texel[1][channel]);
+    float c = LOBE_FIS_READ(taps->texel[2][channel]), d = LOBE_FIS_READ(taps->texel[3][channel]);
+    return lobe_fis_mix(lobe_fis_mix(a, b, taps->x), lobe_fis_mix(c, d, taps->x), taps->y);
 }
 
 /*
@@ -422,12 +456,14 @@ LOBE_API float lobe_fis_root(float a, float b) {
 
    Rounding: share of the kernel to 5e-7 relative, besides moving the kernel by 2^-23 of the image and the level by its
              last bit   [bound fis_level residual 5e-7]
-             Where there is one solution, levels to 2e-6 (root mean square)   [bound fis_level rms 2e-6]
+             Where there is one solution, levels to 2e-6 (root mean square)   [bound fis_level rms 2e-6]; over hard
+             equations, with jumps of up to 1e8 or 1e-5 from a double root, to 1e-5   [bound fis_level stress 1e-5]; at a
+             double root, where rounding moves the solution most, to 1e-3   [bound fis_level worst 1e-3]
    Model:    a solution of 002, Eq. 3, with the trilinear lookup as the mean in the kernel. Its left side is not always
              monotone (the integral that it stands for is): where it has more than one solution this one is close to the
              size of the ancestor that holds k / n, and bisection may find another
    Source:   002, Eq. 3. The ancestors that fis_warp came through tell the level to within about one, so two or three
-             bilinear lookups do instead of the 24 of 12 bisections
+             bilinear lookups, 9 texels on average   [bound fis_level reads 9], do instead of the 24 of 12 bisections
 */
 LOBE_API float fis_level(const fis_pyramid *pdf, const fis_sample *s, int n, float k) {
     float wanted = k / (float)n, below, above;
@@ -467,9 +503,8 @@ LOBE_API float lobe_fis_relative(const fis_pyramid *pdf, const fis_sample *s, fl
    iterations the paper has 12; each halves the error and takes a trilinear lookup. 0 or more
    returns    level in (0, levels - 1): the middle of the last interval, so the ends are approached and not reached
 
-   Rounding: on dense PDFs levels to 2e-5 where there is one solution, besides the model error
-             [bound fis_level_bisect abs 2e-5]
-   Model:    (levels - 1) / 2^(iterations + 1); as fis_level where there is more than one solution
+   Rounding: after 60 iterations, where there is one solution, as fis_level   [bound fis_level_bisect residual 5e-7]
+   Model:    (levels - 1) / 2^(iterations + 1) at most; as fis_level where there is more than one solution
    Source:   000, Algorithm 1; 002, Eq. 3
 */
 LOBE_API float fis_level_bisect(const fis_pyramid *pdf, const fis_sample *s, int n, float k, int iterations) {
@@ -509,7 +544,7 @@ LOBE_API float lobe_fis_density_level(const fis_pyramid *pdf, float p, int n, fl
    Source:   Krivanek and Colbert 2008; 002, Eq. 1
 */
 LOBE_API float fis_level_density(const fis_pyramid *pdf, const fis_sample *s, int n, float k) {
-    return lobe_fis_density_level(pdf, lobe_fis_relative(pdf, s, 0) * lobe_fis_texels(pdf), n, k);
+    return lobe_fis_density_level(pdf, lobe_fis_share(pdf, s, 0) * lobe_fis_texels(pdf), n, k);
 }
 
 /*
@@ -535,7 +570,8 @@ LOBE_API float fis_level_density_nearest(const fis_pyramid *pdf, const fis_sampl
               mean is below 1e-36 of the total: so improbable that a sample is not there
 
    Rounding: with the PDF as the image, the sum over n samples of factor times mean is the PDF's total to 1e-6 relative
-             [bound fis_scale rel 1e-6]
+             [bound fis_scale rel 1e-6]. A kernel's total is at most the largest ratio of an image's texel to the PDF's,
+             times the PDF's total / n, to 1e-6   [bound fis_scale firefly 1e-6]: no fireflies
    Model:    the factor is 4^level where fis_level solved its equation with k = 1. Kernels may overlap or leave gaps, so
              the sum over samples of an image unlike the PDF is only near its total. Image 1 + .5 cos of a smooth PDF,
              1024 samples: to .01   [bound fis_scale model 0.01]
@@ -566,7 +602,7 @@ LOBE_API float lobe_fis_density_scale(const fis_pyramid *pdf, float p, int n) {
    Source:   002, Eq. 4
 */
 LOBE_API float fis_scale_density(const fis_pyramid *pdf, const fis_sample *s, int n) {
-    return lobe_fis_density_scale(pdf, lobe_fis_relative(pdf, s, 0) * lobe_fis_texels(pdf), n);
+    return lobe_fis_density_scale(pdf, lobe_fis_share(pdf, s, 0) * lobe_fis_texels(pdf), n);
 }
 
 /*
@@ -604,7 +640,7 @@ LOBE_API size_t fis_split_size(int width, int height) {
    image      one channel. Bad texels and no mass at all: as fis_build_pdf
    returns    the table in memory
 
-   Rounding: entries to 1e-13 of the total   [bound fis_split_build rel 1e-13]
+   Rounding: entries to (width + height) 2^-53 of the total   [bound fis_split_build sides 1]
    Model:    exact
    Source:   Crow 1984
 */
@@ -637,8 +673,11 @@ LOBE_API double lobe_fis_mass(const fis_split_table *table, double x, double y) 
     int column = x < table->width ? (int)x : table->width - 1, row = y < table->height ? (int)y : table->height - 1;
     const double *above = table->sums + (size_t)row * ((size_t)table->width + 1) + column;
     const double *below = above + table->width + 1;
-    double a = above[0] + (above[1] - above[0]) * (x - column), b = below[0] + (below[1] - below[0]) * (x - column);
-    return a + (b - a) * (y - row);
+    double a = LOBE_FIS_READ(above[0]), b = LOBE_FIS_READ(above[1]);
+    double c = LOBE_FIS_READ(below[0]), d = LOBE_FIS_READ(below[1]);
+    a += (b - a) * (x - column);
+    c += (d - c) * (x - column);
+    return a + (c - a) * (y - row);
 }
 
 /* Mass between two rows and left of x; or between two columns and above it, where vertical */
@@ -692,7 +731,8 @@ LOBE_API void lobe_fis_split(const fis_split_table *table, fis_cell cell, int n,
    n          cells may be smaller than texels; below 1 nothing is written
    cells      n of them are written. Neighbours share their edge's coordinate exactly
 
-   Rounding: mass of each cell to 1e-9 of total / n   [bound fis_split rel 1e-9]
+   Rounding: mass of each cell to 4 (width + height) 2^-53 of the total   [bound fis_split total 4]: to 1e-6 of total / n
+             for a million cells of 1920 by 1088 texels
    Model:    exact, the PDF constant in each texel
    Source:   this project's: each cut halves the number of cells and goes across the longer side, where the mass is
              halved too; replaces kernels, which cannot tile, by cells that do
@@ -737,13 +777,12 @@ LOBE_API void fis_cell_sum(const float *image, int width, int height, int channe
         double sums[16] = {0};
         for (y = y0; y < y1; y++) {
             const float *texels = image + ((size_t)y * (size_t)width + (size_t)x0) * (size_t)channels + first;
-            float row[16] = {0}, height_inside = lobe_fis_overlap(y, v0, v1);
+            float height_inside = lobe_fis_overlap(y, v0, v1);
             for (x = x0; x < x1; x++) {
-                float inside = lobe_fis_overlap(x, u0, u1);
-                for (c = 0; c < count; c++) row[c] += inside * lobe_fis_clean(texels[c]);
+                float inside = height_inside * lobe_fis_overlap(x, u0, u1);
+                for (c = 0; c < count; c++) sums[c] += (double)(inside * lobe_fis_clean(texels[c]));
                 texels += channels;
             }
-            for (c = 0; c < count; c++) sums[c] += (double)height_inside * (double)row[c];
         }
         for (c = 0; c < count; c++) out[first + c] = (float)sums[c];
     }

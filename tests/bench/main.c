@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { REPETITIONS = 15, LOOPS = 2 * BENCH_FORMS };
+enum { REPETITIONS = 15 };
 
 static bench_input in;
 static bench_output out;
@@ -54,31 +54,45 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Nanoseconds an element of each loop: form f scalar at 2 f, vector at 2 f + 1. */
-static void measure_times(const bench_row *row, double *nanoseconds) {
-    static double samples[LOOPS][REPETITIONS];
-    int turns[LOOPS], repetition, loop, turn;
-    for (repetition = -1; repetition < REPETITIONS; repetition++) { /* the first finds how often to run each loop */
-        for (loop = 0; row->form[loop / 2].name; loop++) {
-            bench_loop *run = loop % 2 ? row->form[loop / 2].vector : row->form[loop / 2].scalar;
+void bench_medians(void (*run)(int which), int count, double *medians) {
+    static double samples[BENCH_RUNS][REPETITIONS];
+    int turns[BENCH_RUNS], repetition, which, turn;
+    for (repetition = -1; repetition < REPETITIONS; repetition++) { /* the first finds how often to run each */
+        for (which = 0; which < count; which++) {
             double started = seconds(), elapsed = 0;
             if (repetition < 0) {
-                for (turns[loop] = 0; elapsed < 1e-3; elapsed = seconds() - started, turns[loop]++) run(&in, &out);
+                for (turns[which] = 0; elapsed < 1e-3; elapsed = seconds() - started, turns[which]++) run(which);
                 continue;
             }
-            for (turn = 0; turn < turns[loop]; turn++) run(&in, &out);
+            for (turn = 0; turn < turns[which]; turn++) run(which);
             elapsed = seconds() - started;
-            samples[loop][repetition] = elapsed * 1e9 / ((double)turns[loop] * BENCH_COUNT);
+            samples[which][repetition] = elapsed / turns[which];
         }
     }
-    for (loop = 0; row->form[loop / 2].name; loop++) {
-        qsort(samples[loop], REPETITIONS, sizeof(double), ascending);
-        nanoseconds[loop] = samples[loop][REPETITIONS / 2];
+    for (which = 0; which < count; which++) {
+        qsort(samples[which], REPETITIONS, sizeof(double), ascending);
+        medians[which] = samples[which][REPETITIONS / 2];
     }
 }
 
+static const bench_row *timed;
+
+/* Form f scalar is 2 f, vector 2 f + 1. */
+static void run_loop(int loop) {
+    (loop % 2 ? timed->form[loop / 2].vector : timed->form[loop / 2].scalar)(&in, &out);
+}
+
+/* Nanoseconds an element of each loop */
+static void measure_times(const bench_row *row, double *nanoseconds) {
+    int count = 0, loop;
+    while (row->form[count].name) count++;
+    timed = row;
+    bench_medians(run_loop, 2 * count, nanoseconds);
+    for (loop = 0; loop < 2 * count; loop++) nanoseconds[loop] *= 1e9 / BENCH_COUNT;
+}
+
 static void print(const bench_row *row) {
-    double largest[BENCH_FORMS] = {0}, square[BENCH_FORMS] = {0}, ns[LOOPS];
+    double largest[BENCH_FORMS] = {0}, square[BENCH_FORMS] = {0}, ns[BENCH_RUNS];
     int f;
     measure_errors(row, largest, square);
     measure_times(row, ns);
@@ -126,6 +140,7 @@ int main(int argc, char **argv) {
             rows++;
         }
     }
+    rows += fis_bench(wanted);
     if (!rows) {
         fprintf(stderr, "bench: no function's name contains '%s'\n", wanted);
         return 2;
