@@ -15,7 +15,7 @@ OPENMP := $(call has,-fopenmp)
 endif
 COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS)
 
-HEADERS = sg.h asg.h fis.h ggx_bound.h
+HEADERS = sg.h asg.h fis.h ggx_bound.h bilateral.h
 COMMON = $(wildcard examples/common/*.c)
 TESTS = $(wildcard tests/*.c)
 
