@@ -366,7 +366,7 @@ typedef struct lobe_bilateral_pair {
 LOBE_INLINE lobe_bilateral_pair lobe_bilateral_pair_of(bilateral_sg_part a, bilateral_sg_part b) {
     lobe_bilateral_pair p;
     float sum = a.sharpness + b.sharpness, squared = sum * sum;
-    float lost = lobe_at_most(a.sharpness * b.sharpness * lobe_bilateral_squared(a.axis, b.axis), 0.99999f * squared);
+    float lost = a.sharpness * b.sharpness * lobe_bilateral_squared(a.axis, b.axis);
     float size = sqrtf(squared - lost), both = size + sum, inverse = 1 / (size * both);
     p.exponent = lost * (inverse * size);
     p.factor = a.amplitude * b.amplitude * (both * inverse);
@@ -374,18 +374,32 @@ LOBE_INLINE lobe_bilateral_pair lobe_bilateral_pair_of(bilateral_sg_part a, bila
     return p;
 }
 
-LOBE_INLINE float lobe_bilateral_pair_value(lobe_bilateral_pair p) {
-    float x = lobe_at_most(p.exponent, 125), power, inverse, r, r2, even, odd;
-    int k = (int)(127.5f - x);
-    unsigned u = (unsigned)k << 23;
+/* 2^-x = power * (even + odd) for x in [0, 125], 2^x = inverse * (even - odd), to 1e-7 */
+typedef struct lobe_bilateral_exp2 {
+    float power, inverse, even, odd;
+} lobe_bilateral_exp2;
+
+LOBE_INLINE lobe_bilateral_exp2 lobe_bilateral_exp2_of(float x) {
+    lobe_bilateral_exp2 e;
+    float r, r2;
+    int k;
+    unsigned u;
+    x = lobe_at_most(x, 125);
+    k = (int)(127.5f - x);
     r = (127 - (float)k) - x;
-    memcpy(&power, &u, sizeof power);
+    u = (unsigned)k << 23;
+    memcpy(&e.power, &u, sizeof u);
     u = 0x7F000000u - u;
-    memcpy(&inverse, &u, sizeof inverse);
+    memcpy(&e.inverse, &u, sizeof u);
     r2 = r * r;
-    even = 1 + r2 * (0.240222346f + r2 * 0.0096718776f);
-    odd = r * (0.693147215f + r2 * (0.0555030847f + r2 * 0.00134072204f));
-    return p.factor * (power * (even + odd) - p.tail * (inverse * (even - odd)));
+    e.even = 1 + r2 * (0.240222346f + r2 * 0.0096718776f);
+    e.odd = r * (0.693147215f + r2 * (0.0555030847f + r2 * 0.00134072204f));
+    return e;
+}
+
+LOBE_INLINE float lobe_bilateral_pair_value(lobe_bilateral_pair p) {
+    lobe_bilateral_exp2 e = lobe_bilateral_exp2_of(p.exponent);
+    return p.factor * (e.power * (e.even + e.odd) - p.tail * (e.inverse * (e.even - e.odd)));
 }
 
 /*
@@ -417,7 +431,8 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
     int l, m;
     LOBE_ASSERT(count > 0);
     for (l = 0; l < count; l++) {
-        parts[l].axis = lobes[l].axis;
+        parts[l].axis =
+            lobe_scale(lobe_normalize_or(lobes[l].axis, lobe_vector(0, 0, 1)), 0.999999f); /* so that L is not 0 */
         parts[l].sharpness = LOBE_LOG2E * lobe_at_most(lobe_at_least(lobes[l].sharpness, 0.015625f), 1e18f);
         parts[l].amplitude = lobe_exp(lobes[l].log_amplitude - top);
         parts[l].tail = lobe_select(lobes[l].sharpness < 16, lobe_exp(-2 * lobes[l].sharpness), 0);
@@ -501,7 +516,10 @@ LOBE_API void bilateral_sg_mixture_taps(int count, int lobes, const float *const
                         stage[0][x] += lobe_bilateral_pair_value(p);
                     }
                 } else {
-                    for (x = 0; x < n; x++) stage[0][x] += stage[2][x] * lobe_exp2(-stage[1][x]);
+                    for (x = 0; x < n; x++) {
+                        lobe_bilateral_exp2 e = lobe_bilateral_exp2_of(stage[1][x]);
+                        stage[0][x] += stage[2][x] * (e.power * (e.even + e.odd));
+                    }
                 }
             }
         }
