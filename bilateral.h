@@ -131,7 +131,7 @@ LOBE_INLINE float lobe_bilateral_squared(lobe_vec3 a, lobe_vec3 b) {
    variance   (0, 1e30], counts as at least 1e-30
    returns    exp(-(zi - zj)^2 / (2 variance))
 
-   Rounding: <= 4 (1 + |ln w|) 2^-24 relative   [bound bilateral_depth_weight conditioned 4 over 1e-6 1e6]
+   Rounding: <= 6 (1 + |ln w|) 2^-24 relative   [bound bilateral_depth_weight conditioned 6 over 1e-6 1e6]
    Model:    exact
    Source:   004, Eq. 3
 */
@@ -228,7 +228,7 @@ LOBE_API float lobe_bilateral_top(const sg_lobe *lobes, int count) {
               e^-60 of its largest do not
    returns    q^beta
 
-   Rounding: <= 6e-7 beta (1 + |ln q|) relative   [bound bilateral_sg_mixture_weight rel 6e-7 over 1e-3 1e5]
+   Rounding: <= 40 similarity, with no l   [bound bilateral_sg_mixture_weight similarity 40 over 1e-3 1e5]
    Model:    exact
    Source:   004, Eq. 11, of logarithms, the sums over their largest term
 */
@@ -319,8 +319,9 @@ LOBE_INLINE float lobe_bilateral_sg_exponent(bilateral_sg i, bilateral_sg j, flo
    weight     count exponents, which become weights
    returns    bilateral_sg_weight times 2^exponent
 
-   Rounding: <= 12 similarity   [bound bilateral_sg_tap similarity 12 over 1e-8 1e10]
-             [bound bilateral_sg_tap_power similarity 12 over 1e-8 1e10] [bound bilateral_sg_taps similarity 12 over 1e-8 1e10]
+   Rounding: <= 12 similarity, of _tap_power 3 beta 2^-24 of the largest weight besides
+             [bound bilateral_sg_tap similarity 12 over 1e-8 1e10] [bound bilateral_sg_taps similarity 12 over 1e-8 1e10]
+             [bound bilateral_sg_tap_power similarity 12 over 1e-8 1e10]
    Model:    as bilateral_sg_weight
    Source:   004, Eq. 12, with widths 1 / li, so that only their sum is divided by
 */
@@ -432,10 +433,11 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
     LOBE_ASSERT(count > 0);
     for (l = 0; l < count; l++) {
         parts[l].axis =
-            lobe_scale(lobe_normalize_or(lobes[l].axis, lobe_vector(0, 0, 1)), 0.999999f); /* so that L is not 0 */
+            lobe_scale(lobe_normalize_or(lobes[l].axis, lobe_vector(0, 0, 1)), 0.9999995f); /* so that L is not 0 */
         parts[l].sharpness = LOBE_LOG2E * lobe_at_most(lobe_at_least(lobes[l].sharpness, 0.015625f), 1e18f);
         parts[l].amplitude = lobe_exp(lobes[l].log_amplitude - top);
-        parts[l].tail = lobe_select(lobes[l].sharpness < 16, lobe_exp(-2 * lobes[l].sharpness), 0);
+        parts[l].tail =
+            lobe_select(lobes[l].sharpness < 16, lobe_exp(-2 * lobe_at_least(lobes[l].sharpness, 0.015625f)), 0);
     }
     for (l = 0; l < count; l++) {
         for (m = 0; m < count; m++) own += bilateral_sg_pair(parts[l], parts[m]);
@@ -453,10 +455,12 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
    weight     count exponents, which become weights
    returns    bilateral_sg_mixture_weight times 2^exponent
 
-   Rounding: q within 1e-5, and within 1e-5 relative where both mixtures have lobes of sharpness 16 or more only
-             [bound bilateral_sg_mixture_tap abs 1e-5 over 1e-3 1e10] [bound bilateral_sg_mixture_tap rel 1e-5 over 16 1e6]
-             [bound bilateral_sg_mixture_taps abs 1e-5 over 1e-3 1e10]
-   Model:    exact, but for lobes of sharpness below 1/64: q within 1e-4   [bound bilateral_sg_mixture_tap wide 1e-4]
+   Rounding: of q <= 100 similarity, with l the largest sharpness
+             [bound bilateral_sg_mixture_tap similarity 100 over .015625 1e6]
+             [bound bilateral_sg_mixture_taps similarity 100 over .015625 1e6]
+             Of opposed equal lobes of sharpness below 1, whose L is nearly 0, within .01
+             [bound bilateral_sg_mixture_tap opposed .01 over .015625 1]
+   Model:    exact, but for lobes of sharpness below 1/64: q within .015   [bound bilateral_sg_mixture_tap wide .015]
    Source:   004, Eq. 11, with exp(-L) sinh L as a difference of exponentials, the second from the first's polynomial. Where
              one of two lobes is of sharpness 16 or more, it is 0.
 */
@@ -680,11 +684,11 @@ LOBE_API float lobe_bilateral_log_energy(sg_lobe g) {
    lobes      1 or more; sharpness [0, 1e30]
    returns    the axis is the mean direction, the sharpness from its length; at most 1e18
 
-   Rounding: sharpness within 4e-6 relative, axis within 4e-7, integral within 4e-6
-             [bound bilateral_merge sharpness 4e-6 over 1e-3 1e8] [bound bilateral_merge axis 4e-7]
+   Rounding: sharpness of three lobes within 5e-5 relative, axis within 8e-7, integral within 4e-6
+             [bound bilateral_merge sharpness 5e-5 over 1e-3 1e8] [bound bilateral_merge axis 8e-7]
              [bound bilateral_merge integral 4e-6]
-   Model:    lengths are Toksvig's l / (l + 1) both ways, see sg_mean_length: for sharpness of 10 or more the length of the
-             mean is within .01 of the sum's   [bound bilateral_merge model .01 over 10 1e6]
+   Model:    lengths are Toksvig's l / (l + 1) both ways, see sg_mean_length: of lobes of sharpness 10 or more within 1 of
+             one direction the mean's length is within .08 of the sum's   [bound bilateral_merge model .08 over 10 1e6]
    Source:   Toksvig 2005, which 004 names; as vsgl_cluster_merge, which stays exact at high sharpness
 */
 LOBE_API sg_lobe bilateral_merge(const sg_lobe *lobes, int count) {
