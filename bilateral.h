@@ -86,11 +86,10 @@ typedef struct bilateral_asg {
 
 /* ---- private helpers ---- */
 
-/* log2 x for x from 2^-126, which counts as at most 1: then 0.   [bound lobe_bilateral_log2 abs 4e-7] */
+/* log2 x for x from 2^-126; exactly 0 at 1; from |log2 x| of 8 on relative to an eighth of it.   [bound lobe_bilateral_log2 abs 5e-7] */
 LOBE_INLINE float lobe_bilateral_log2(float x) {
     int bits, power;
     float f, f2, slope;
-    x = lobe_at_most(x, 1);
     memcpy(&bits, &x, sizeof bits);
     power = (bits - 0x3F3504F3) & ~0x007FFFFF; /* as lobe_log */
     bits -= power;
@@ -108,10 +107,10 @@ LOBE_INLINE float lobe_bilateral_power(float x, int n) {
     return (n & 1 ? x : 1) * (n & 2 ? x2 : 1) * ((n & 4 ? x4 : 1) * (n & 8 ? x8 : 1));
 }
 
-/* The overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj), so much too large that it is at least 1 for equal
+/* The overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj), so much too large, but at most 1, that it is 1 for equal
    ones. */
 LOBE_INLINE float lobe_bilateral_overlap(float ti, float tj, float inverse) {
-    return 4.00000191f * (ti * inverse) * (tj * inverse);
+    return lobe_at_most(4.00000191f * (ti * inverse) * (tj * inverse), 1);
 }
 
 LOBE_API float lobe_bilateral_width(float sharpness) {
@@ -465,7 +464,7 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
              one of two lobes is of sharpness 16 or more, it is 0.
 */
 LOBE_INLINE float bilateral_sg_mixture_tap(float exponent, float product, float beta) {
-    return lobe_exp2(exponent + beta * lobe_bilateral_log2(lobe_at_least(product, LOBE_TINY)));
+    return lobe_exp2(exponent + beta * lobe_bilateral_log2(lobe_at_most(lobe_at_least(product, LOBE_TINY), 1)));
 }
 
 LOBE_INLINE bilateral_sg_part lobe_bilateral_part(const float *const *planes, int x) {
@@ -527,9 +526,15 @@ LOBE_API void bilateral_sg_mixture_taps(int count, int lobes, const float *const
                 }
             }
         }
-        for (x = 0; x < n; x++) stage[0][x] = beta * lobe_bilateral_log2(lobe_at_least(stage[0][x], LOBE_TINY));
+        for (x = 0; x < n; x++)
+            stage[0][x] = beta * lobe_bilateral_log2(lobe_at_most(lobe_at_least(stage[0][x], LOBE_TINY), 1));
         for (x = 0; x < n; x++) weight[from + x] = lobe_exp2(weight[from + x] + stage[0][x]);
     }
+}
+
+/* log2 of q from the square of its factor and its exponent, at most 0 */
+LOBE_INLINE float lobe_bilateral_asg_exponent(float square, float exponent) {
+    return -lobe_at_least(-0.5f * lobe_bilateral_log2(square) - LOBE_LOG2E * exponent, 0);
 }
 
 LOBE_INLINE asg_lobe lobe_bilateral_asg(bilateral_asg p) {
@@ -573,7 +578,7 @@ LOBE_API bilateral_asg bilateral_asg_prepare(asg_lobe a) {
     p.z = a.z;
     p.sharpness_x = a.sharpness_x;
     p.sharpness_y = a.sharpness_y;
-    p.own_scale = 1.000001f / (mean * mean * square);
+    p.own_scale = 1.000001f / (mean * sqrtf(square)); /* a little more: q of equal lobes is to reach 1 */
     p.own_exponent = 0.5f * m.tau;
     return p;
 }
@@ -586,7 +591,7 @@ LOBE_API bilateral_asg bilateral_asg_prepare(asg_lobe a) {
    weight     count exponents, which become weights
    returns    bilateral_asg_weight times 2^exponent
 
-   Rounding: of q, 2e-6 relative between them   [bound bilateral_asg_taps rel 2e-6 over 1e-2 1e6]
+   Rounding: of q, 4e-6 from that and between them   [bound bilateral_asg_taps rel 4e-6 over 1e-3 1e6]
    Model:    as bilateral_asg_weight
    Source:   004, Eq. 13
 */
@@ -594,8 +599,7 @@ LOBE_INLINE float bilateral_asg_tap(float exponent, bilateral_asg i, bilateral_a
     lobe_asg_means m = lobe_asg_means_of(lobe_asg_pair_of(lobe_bilateral_asg(i), lobe_bilateral_asg(j)));
     float square, mean = lobe_asg_clamped_mean(m, &square);
     float ratio = mean * mean * square * (i.own_scale * j.own_scale);
-    float similar = 0.5f * lobe_bilateral_log2(ratio) + (m.tau - (i.own_exponent + j.own_exponent));
-    return lobe_exp2(exponent - LOBE_LOG2E * beta * lobe_at_least(-similar, 0));
+    return lobe_exp2(exponent + beta * lobe_bilateral_asg_exponent(ratio, m.tau - (i.own_exponent + j.own_exponent)));
 }
 
 LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *const *j, float beta, float *weight) {
@@ -649,8 +653,8 @@ LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *
             stage[9][x] *= mean * mean * square;
         }
         for (x = 0; x < n; x++) {
-            float similar = 0.5f * lobe_bilateral_log2(stage[9][x]) + stage[10][x];
-            weight[from + x] = lobe_exp2(weight[from + x] - LOBE_LOG2E * beta * lobe_at_least(-similar, 0));
+            float similar = lobe_bilateral_asg_exponent(stage[9][x], stage[10][x]);
+            weight[from + x] = lobe_exp2(weight[from + x] + beta * similar);
         }
     }
 }
@@ -663,7 +667,8 @@ LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *
 
    Rounding: q the same either way round within 4e-6, and falls without steps above 2e-6 as lobes turn
              [bound bilateral_asg_weight symmetric 4e-6] [bound bilateral_asg_weight monotone 2e-6]
-   Model:    that of asg_product_integral: q within .0125   [bound bilateral_asg_weight model .0125 over .1 1e5]
+   Model:    that of asg_product_integral: q within .0125, RMS .001
+             [bound bilateral_asg_weight model .0125 over .1 1e5] [bound bilateral_asg_weight rms .001 over .1 1e5]
    Source:   004, Eq. 13
 */
 LOBE_API float bilateral_asg_weight(asg_lobe i, asg_lobe j, float beta) {
