@@ -30,8 +30,8 @@
  Upsampling and reprojection: bilateral_footprint, the taps' similarities (times 0 for a sample that is not valid),
  bilateral_footprint_weights, whose total tells the same.
 
- Errors: as in sg.h. "similarity" is in (1 + e + beta + sqrt(l e) + 2^-24 l) 2^-24 of the weight for e = -ln of it and l =
- beta times the smaller sharpness: what rounding of the logarithm and of unit vectors costs.
+ Errors: as in sg.h. "similarity" is in (1 + e + beta + sqrt(l e) + 2^-24 l) 2^-24 of the weight for e = -ln of it and
+ l = beta times the smaller sharpness: what rounding of the logarithm and of unit vectors costs.
  Out of finite input (unit vectors, sharpness of any size, depths and guides up to 1e18) comes no NaN and no infinity.
 
  Functions:
@@ -86,7 +86,7 @@ typedef struct bilateral_asg {
 
 /* ---- private helpers ---- */
 
-/* log2 x for x from 2^-126; exactly 0 at 1; from |log2 x| of 8 on relative to an eighth of it.   [bound lobe_bilateral_log2 abs 5e-7] */
+/* log2 x for x from 2^-126; exactly 0 at 1. Error in max(1, |log2 x| / 4).   [bound lobe_bilateral_log2 abs 5e-7] */
 LOBE_INLINE float lobe_bilateral_log2(float x) {
     int bits, power;
     float f, f2, slope;
@@ -107,8 +107,8 @@ LOBE_INLINE float lobe_bilateral_power(float x, int n) {
     return (n & 1 ? x : 1) * (n & 2 ? x2 : 1) * ((n & 4 ? x4 : 1) * (n & 8 ? x8 : 1));
 }
 
-/* The overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj), so much too large, but at most 1, that it is 1 for equal
-   ones. */
+/* The overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj). A little too large, but at most 1: so it is 1 for
+   equal ones. */
 LOBE_INLINE float lobe_bilateral_overlap(float ti, float tj, float inverse) {
     return lobe_at_most(4.00000191f * (ti * inverse) * (tj * inverse), 1);
 }
@@ -182,9 +182,9 @@ LOBE_API float bilateral_gaussian_weight(float mi, float vi, float mj, float vj,
    returns    q^beta
 
    Rounding: <= 12 similarity   [bound bilateral_sg_weight similarity 12 over 1e-8 1e10]
-   Model:    against bilateral_sg_mixture_weight of one lobe each: within .02 for beta 20 and a sharpness of 10 or more of
-             both, .002 from 100 on   [bound bilateral_sg_weight model .02 over 10 1e5]
-             [bound bilateral_sg_weight sharp .002 over 100 1e6]
+   Model:    against bilateral_sg_mixture_weight of one lobe each and for beta 20: within .02 for a sharpness of 10 or
+             more of both, .002 from 100 on
+             [bound bilateral_sg_weight model .02 over 10 1e5] [bound bilateral_sg_weight sharp .002 over 100 1e6]
    Source:   004, Eq. 12: (4 li lj / (li + lj)^2)^(beta / 2) times an SG of sharpness beta li lj / (li + lj)
 */
 LOBE_API float bilateral_sg_weight(sg_lobe i, sg_lobe j, float beta) {
@@ -223,8 +223,7 @@ LOBE_API float lobe_bilateral_top(const sg_lobe *lobes, int count) {
 /*
  bilateral_sg_mixture_weight - similarity of two sums of SGs
 
-   i, j       ni and nj lobes, 1 or more; sharpness [0, 1e30]; amplitudes matter among the lobes of one pixel, those below
-              e^-60 of its largest do not
+   i, j       ni and nj lobes, 1 or more; sharpness [0, 1e30]; amplitudes matter among the lobes of one pixel
    returns    q^beta
 
    Rounding: <= 40 similarity, with no l   [bound bilateral_sg_mixture_weight similarity 40 over 1e-3 1e5]
@@ -319,7 +318,8 @@ LOBE_INLINE float lobe_bilateral_sg_exponent(bilateral_sg i, bilateral_sg j, flo
    returns    bilateral_sg_weight times 2^exponent
 
    Rounding: <= 12 similarity, of _tap_power 3 beta 2^-24 of the largest weight besides
-             [bound bilateral_sg_tap similarity 12 over 1e-8 1e10] [bound bilateral_sg_taps similarity 12 over 1e-8 1e10]
+             [bound bilateral_sg_tap similarity 12 over 1e-8 1e10]
+             [bound bilateral_sg_taps similarity 12 over 1e-8 1e10]
              [bound bilateral_sg_tap_power similarity 12 over 1e-8 1e10]
    Model:    as bilateral_sg_weight
    Source:   004, Eq. 12, with widths 1 / li, so that only their sum is divided by
@@ -460,8 +460,8 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
              Of opposed equal lobes of sharpness below 1, whose L is nearly 0, within .01
              [bound bilateral_sg_mixture_tap opposed .01 over .015625 1]
    Model:    exact, but for lobes of sharpness below 1/64: q within .015   [bound bilateral_sg_mixture_tap wide .015]
-   Source:   004, Eq. 11, with exp(-L) sinh L as a difference of exponentials, the second from the first's polynomial. Where
-             one of two lobes is of sharpness 16 or more, it is 0.
+   Source:   004, Eq. 11, with exp(-L) sinh L as a difference of exponentials, the second by the first's polynomial, and 0
+             where one of two lobes is of sharpness 16 or more
 */
 LOBE_INLINE float bilateral_sg_mixture_tap(float exponent, float product, float beta) {
     return lobe_exp2(exponent + beta * lobe_bilateral_log2(lobe_at_most(lobe_at_least(product, LOBE_TINY), 1)));
@@ -692,8 +692,8 @@ LOBE_API float lobe_bilateral_log_energy(sg_lobe g) {
    Rounding: sharpness of three lobes within 5e-5 relative, axis within 8e-7, integral within 4e-6
              [bound bilateral_merge sharpness 5e-5 over 1e-3 1e8] [bound bilateral_merge axis 8e-7]
              [bound bilateral_merge integral 4e-6]
-   Model:    lengths are Toksvig's l / (l + 1) both ways, see sg_mean_length: of lobes of sharpness 10 or more within 1 of
-             one direction the mean's length is within .08 of the sum's   [bound bilateral_merge model .08 over 10 1e6]
+   Model:    lengths are Toksvig's l / (l + 1) both ways, see sg_mean_length: of lobes of sharpness 10 or more within an
+             angle of 1 the mean's length is within .08 of the sum's   [bound bilateral_merge model .08 over 10 1e6]
    Source:   Toksvig 2005, which 004 names; as vsgl_cluster_merge, which stays exact at high sharpness
 */
 LOBE_API sg_lobe bilateral_merge(const sg_lobe *lobes, int count) {
@@ -758,8 +758,7 @@ LOBE_API void bilateral_pairs_add(int count, const float *weight, int channels, 
    x, y           in pixels of the image sampled, whose centres are at whole numbers
    width, height  of it, up to 2^20
    left, top      the first tap's pixel, from -1 on; the others are right of it, below, and both
-   weight         of (left, top), (left + 1, top), (left, top + 1), (left + 1, top + 1): 0 outside the image, where their
-                  sum falls to 0 within a pixel
+   weight         of (left, top), (left + 1, top), (left, top + 1), (left + 1, top + 1); 0 of those outside the image
 
    Rounding: 2^-22   [bound bilateral_footprint abs 0x1p-22]
    Model:    exact
