@@ -86,7 +86,7 @@ typedef struct bilateral_asg {
 
 /* ---- private helpers ---- */
 
-/* log2 x for x from 2^-126; exactly 0 at 1. Error in max(1, |log2 x| / 4).   [bound lobe_bilateral_log2 abs 5e-7] */
+/* log2 x for x from 2^-126; exactly 0 at 1. Error in max(1, |log2 x| / 4).   [bound lobe_bilateral_log2 abs 6e-7] */
 LOBE_INLINE float lobe_bilateral_log2(float x) {
     int bits, power;
     float f, f2, slope;
@@ -107,8 +107,8 @@ LOBE_INLINE float lobe_bilateral_power(float x, int n) {
     return (n & 1 ? x : 1) * (n & 2 ? x2 : 1) * ((n & 4 ? x4 : 1) * (n & 8 ? x8 : 1));
 }
 
-/* The overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj). A little too large, but at most 1: so it is 1 for
-   equal ones. */
+/* The overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj). A little too large, but at most 1, so that
+   it is 1 for equal ones. */
 LOBE_INLINE float lobe_bilateral_overlap(float ti, float tj, float inverse) {
     return lobe_at_most(4.00000191f * (ti * inverse) * (tj * inverse), 1);
 }
@@ -365,41 +365,48 @@ typedef struct lobe_bilateral_pair {
 
 LOBE_INLINE lobe_bilateral_pair lobe_bilateral_pair_of(bilateral_sg_part a, bilateral_sg_part b) {
     lobe_bilateral_pair p;
-    float sum = a.sharpness + b.sharpness, squared = sum * sum;
+    float sum = a.sharpness + b.sharpness;
     float lost = a.sharpness * b.sharpness * lobe_bilateral_squared(a.axis, b.axis);
-    float size = sqrtf(squared - lost), both = size + sum, inverse = 1 / (size * both);
+    float size = sqrtf(sum * sum - lost), both = size + sum, inverse = 1 / (size * both);
     p.exponent = lost * (inverse * size);
     p.factor = a.amplitude * b.amplitude * (both * inverse);
     p.tail = a.tail * b.tail;
     return p;
 }
 
-/* 2^-x = power * (even + odd) for x in [0, 125], 2^x = inverse * (even - odd), to 1e-7 */
-typedef struct lobe_bilateral_exp2 {
-    float power, inverse, even, odd;
-} lobe_bilateral_exp2;
-
-LOBE_INLINE lobe_bilateral_exp2 lobe_bilateral_exp2_of(float x) {
-    lobe_bilateral_exp2 e;
-    float r, r2;
-    int k;
-    unsigned u;
+/* 2^-x = 2^(whole - 127) 2^r for x in [0, 125]; returns whole, from 2 to 127. */
+LOBE_INLINE int lobe_bilateral_split(float x, float *r) {
+    int whole;
     x = lobe_at_most(x, 125);
-    k = (int)(127.5f - x);
-    r = (127 - (float)k) - x;
-    u = (unsigned)k << 23;
-    memcpy(&e.power, &u, sizeof u);
-    u = 0x7F000000u - u;
-    memcpy(&e.inverse, &u, sizeof u);
-    r2 = r * r;
-    e.even = 1 + r2 * (0.240222346f + r2 * 0.0096718776f);
-    e.odd = r * (0.693147215f + r2 * (0.0555030847f + r2 * 0.00134072204f));
-    return e;
+    whole = (int)(127.5f - x);
+    *r = (127 - (float)whole) - x;
+    return whole;
 }
 
+LOBE_INLINE float lobe_bilateral_power_of_2(unsigned whole) {
+    float power;
+    whole <<= 23;
+    memcpy(&power, &whole, sizeof power);
+    return power;
+}
+
+/* Without a tail; 2^r to 1e-7 */
+LOBE_INLINE float lobe_bilateral_sharp_value(float exponent, float factor) {
+    float r;
+    int whole = lobe_bilateral_split(exponent, &r);
+    r = 1 + r * (0.693147215f + r * (0.240222346f + r * (0.0555030847f + r * (0.0096718776f + r * 0.00134072204f))));
+    return factor * (lobe_bilateral_power_of_2((unsigned)whole) * r);
+}
+
+/* The same polynomial, even and odd, gives 2^-r too. */
 LOBE_INLINE float lobe_bilateral_pair_value(lobe_bilateral_pair p) {
-    lobe_bilateral_exp2 e = lobe_bilateral_exp2_of(p.exponent);
-    return p.factor * (e.power * (e.even + e.odd) - p.tail * (e.inverse * (e.even - e.odd)));
+    float r, r2, even, odd, value;
+    int whole = lobe_bilateral_split(p.exponent, &r);
+    r2 = r * r;
+    even = 1 + r2 * (0.240222346f + r2 * 0.0096718776f);
+    odd = r * (0.693147215f + r2 * (0.0555030847f + r2 * 0.00134072204f));
+    value = lobe_bilateral_power_of_2((unsigned)whole) * (even + odd);
+    return p.factor * (value - p.tail * (lobe_bilateral_power_of_2((unsigned)(254 - whole)) * (even - odd)));
 }
 
 /*
@@ -460,7 +467,7 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
              Of opposed equal lobes of sharpness below 1, whose L is nearly 0, within .01
              [bound bilateral_sg_mixture_tap opposed .01 over .015625 1]
    Model:    exact, but for lobes of sharpness below 1/64: q within .015   [bound bilateral_sg_mixture_tap wide .015]
-   Source:   004, Eq. 11, with exp(-L) sinh L as a difference of exponentials, the second by the first's polynomial, and 0
+   Source:   004, Eq. 11, with exp(-L) sinh L as a difference of exponentials, the second by the first's polynomial; 0
              where one of two lobes is of sharpness 16 or more
 */
 LOBE_INLINE float bilateral_sg_mixture_tap(float exponent, float product, float beta) {
@@ -495,40 +502,39 @@ LOBE_API unsigned lobe_bilateral_tails(int count, int lobes, const float *const 
 
 LOBE_API void bilateral_sg_mixture_taps(int count, int lobes, const float *const *i, const float *const *j, float beta,
                                         float *weight) {
-    float stage[4][LOBE_BILATERAL_BLOCK];
+    float product[LOBE_BILATERAL_BLOCK], exponent[LOBE_BILATERAL_BLOCK], factor[LOBE_BILATERAL_BLOCK];
     int from, x, l, m;
     for (from = 0; from < count; from += LOBE_BILATERAL_BLOCK) {
         int n = count - from < LOBE_BILATERAL_BLOCK ? count - from : LOBE_BILATERAL_BLOCK;
         unsigned tails_i = lobe_bilateral_tails(n, lobes, i, from), tails_j = lobe_bilateral_tails(n, lobes, j, from);
-        for (x = 0; x < n; x++) stage[0][x] = 0;
+        for (x = 0; x < n; x++) product[x] = 0;
         for (l = 0; l < lobes; l++) {
             for (m = 0; m < lobes; m++) {
                 for (x = 0; x < n; x++) {
                     lobe_bilateral_pair p = lobe_bilateral_pair_of(lobe_bilateral_part(i + 6 * l, from + x),
                                                                    lobe_bilateral_part(j + 6 * m, from + x));
-                    stage[1][x] = p.exponent;
-                    stage[2][x] = p.factor;
+                    exponent[x] = p.exponent;
+                    factor[x] = p.factor;
                 }
                 if (tails_i >> l & tails_j >> m & 1) {
                     const float *tail_i = i[6 * l + 5] + from, *tail_j = j[6 * m + 5] + from;
                     for (x = 0; x < n; x++) {
                         lobe_bilateral_pair p;
-                        p.exponent = stage[1][x];
-                        p.factor = stage[2][x];
+                        p.exponent = exponent[x];
+                        p.factor = factor[x];
                         p.tail = tail_i[x] * tail_j[x];
-                        stage[0][x] += lobe_bilateral_pair_value(p);
+                        product[x] += lobe_bilateral_pair_value(p);
                     }
                 } else {
                     for (x = 0; x < n; x++) {
-                        lobe_bilateral_exp2 e = lobe_bilateral_exp2_of(stage[1][x]);
-                        stage[0][x] += stage[2][x] * (e.power * (e.even + e.odd));
+                        product[x] += lobe_bilateral_sharp_value(exponent[x], factor[x]);
                     }
                 }
             }
         }
         for (x = 0; x < n; x++)
-            stage[0][x] = beta * lobe_bilateral_log2(lobe_at_most(lobe_at_least(stage[0][x], LOBE_TINY), 1));
-        for (x = 0; x < n; x++) weight[from + x] = lobe_exp2(weight[from + x] + stage[0][x]);
+            product[x] = beta * lobe_bilateral_log2(lobe_at_most(lobe_at_least(product[x], LOBE_TINY), 1));
+        for (x = 0; x < n; x++) weight[from + x] = lobe_exp2(weight[from + x] + product[x]);
     }
 }
 
@@ -603,57 +609,61 @@ LOBE_INLINE float bilateral_asg_tap(float exponent, bilateral_asg i, bilateral_a
 }
 
 LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *const *j, float beta, float *weight) {
-    float stage[11][LOBE_BILATERAL_BLOCK];
+    /* an array each, not one of arrays: clang does not see that something used so often is not the planes */
+    float trace[LOBE_BILATERAL_BLOCK], m2[LOBE_BILATERAL_BLOCK], det[LOBE_BILATERAL_BLOCK];
+    float quad_a[LOBE_BILATERAL_BLOCK], quad_b[LOBE_BILATERAL_BLOCK], cosine[LOBE_BILATERAL_BLOCK];
+    float adj_aa[LOBE_BILATERAL_BLOCK], adj_bb[LOBE_BILATERAL_BLOCK], adj_ab[LOBE_BILATERAL_BLOCK];
+    float square[LOBE_BILATERAL_BLOCK], exponent[LOBE_BILATERAL_BLOCK];
     int from, x;
     for (from = 0; from < count; from += LOBE_BILATERAL_BLOCK) {
         int n = count - from < LOBE_BILATERAL_BLOCK ? count - from : LOBE_BILATERAL_BLOCK;
         for (x = 0; x < n; x++) {
             bilateral_asg a = lobe_bilateral_asg_at(i, from + x), b = lobe_bilateral_asg_at(j, from + x);
             lobe_asg_pair k = lobe_asg_pair_of(lobe_bilateral_asg(a), lobe_bilateral_asg(b));
-            stage[0][x] = k.trace;
-            stage[1][x] = k.m2;
-            stage[2][x] = k.det;
-            stage[3][x] = k.quad_a;
-            stage[4][x] = k.quad_b;
-            stage[5][x] = k.adj_aa;
-            stage[6][x] = k.adj_bb;
-            stage[7][x] = k.adj_ab;
-            stage[8][x] = k.cosine;
-            stage[9][x] = a.own_scale * b.own_scale;
-            stage[10][x] = a.own_exponent + b.own_exponent;
+            trace[x] = k.trace;
+            m2[x] = k.m2;
+            det[x] = k.det;
+            quad_a[x] = k.quad_a;
+            quad_b[x] = k.quad_b;
+            adj_aa[x] = k.adj_aa;
+            adj_bb[x] = k.adj_bb;
+            adj_ab[x] = k.adj_ab;
+            cosine[x] = k.cosine;
+            square[x] = a.own_scale * b.own_scale;
+            exponent[x] = a.own_exponent + b.own_exponent;
         }
         for (x = 0; x < n; x++) {
             lobe_asg_pair k;
             lobe_asg_means m;
-            k.trace = stage[0][x];
-            k.m2 = stage[1][x];
-            k.det = stage[2][x];
-            k.quad_a = stage[3][x];
-            k.quad_b = stage[4][x];
-            k.adj_aa = stage[5][x];
-            k.adj_bb = stage[6][x];
-            k.adj_ab = stage[7][x];
-            k.cosine = stage[8][x];
+            k.trace = trace[x];
+            k.m2 = m2[x];
+            k.det = det[x];
+            k.quad_a = quad_a[x];
+            k.quad_b = quad_b[x];
+            k.adj_aa = adj_aa[x];
+            k.adj_bb = adj_bb[x];
+            k.adj_ab = adj_ab[x];
+            k.cosine = cosine[x];
             m = lobe_asg_means_of(k);
-            stage[0][x] = m.ab;
-            stage[1][x] = m.aa;
-            stage[2][x] = m.bb;
-            stage[3][x] = m.scale;
-            stage[10][x] = m.tau - stage[10][x];
+            adj_ab[x] = m.ab;
+            adj_aa[x] = m.aa;
+            adj_bb[x] = m.bb;
+            det[x] = m.scale;
+            exponent[x] = m.tau - exponent[x];
         }
         for (x = 0; x < n; x++) {
             lobe_asg_means m;
-            float square, mean;
+            float scale, mean;
             m.tau = 0;
-            m.ab = stage[0][x];
-            m.aa = stage[1][x];
-            m.bb = stage[2][x];
-            m.scale = stage[3][x];
-            mean = lobe_asg_clamped_mean(m, &square);
-            stage[9][x] *= mean * mean * square;
+            m.ab = adj_ab[x];
+            m.aa = adj_aa[x];
+            m.bb = adj_bb[x];
+            m.scale = det[x];
+            mean = lobe_asg_clamped_mean(m, &scale);
+            square[x] *= mean * mean * scale;
         }
         for (x = 0; x < n; x++) {
-            float similar = lobe_bilateral_asg_exponent(stage[9][x], stage[10][x]);
+            float similar = lobe_bilateral_asg_exponent(square[x], exponent[x]);
             weight[from + x] = lobe_exp2(weight[from + x] + beta * similar);
         }
     }
