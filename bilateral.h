@@ -575,7 +575,7 @@ LOBE_INLINE bilateral_asg lobe_bilateral_asg_at(const float *const *planes, int 
    Model:    as bilateral_asg_weight
    Source:   004, Eq. 13: the product with itself, by the same code as the taps'
 */
-LOBE_API bilateral_asg bilateral_asg_prepare(asg_lobe a) {
+LOBE_INLINE bilateral_asg bilateral_asg_prepare(asg_lobe a) {
     bilateral_asg p;
     lobe_asg_means m = lobe_asg_means_of(lobe_asg_pair_of(a, a));
     float square, mean = lobe_asg_clamped_mean(m, &square);
@@ -681,7 +681,7 @@ LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *
              [bound bilateral_asg_weight model .0125 over .1 1e5] [bound bilateral_asg_weight rms .001 over .1 1e5]
    Source:   004, Eq. 13
 */
-LOBE_API float bilateral_asg_weight(asg_lobe i, asg_lobe j, float beta) {
+LOBE_INLINE float bilateral_asg_weight(asg_lobe i, asg_lobe j, float beta) {
     LOBE_ASSERT(i.sharpness_x >= 0 && i.sharpness_y >= 0 && j.sharpness_x >= 0 && j.sharpness_y >= 0 && beta > 0);
     return bilateral_asg_tap(0, bilateral_asg_prepare(i), bilateral_asg_prepare(j), beta);
 }
