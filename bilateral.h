@@ -175,26 +175,6 @@ LOBE_API float bilateral_gaussian_weight(float mi, float vi, float mj, float vj,
                              0.5f * LOBE_LOG2E * lobe_at_most(d * d, 1e15f) * inverse));
 }
 
-/*
- bilateral_sg_weight - similarity of two SGs
-
-   i, j       sharpness [0, 1e30], counts as within [1e-15, 1e18]; amplitudes do not matter
-   returns    q^beta
-
-   Rounding: <= 12 similarity   [bound bilateral_sg_weight similarity 12 over 1e-8 1e10]
-   Model:    against bilateral_sg_mixture_weight of one lobe each and for beta 20: within .02 for a sharpness of 10 or
-             more of both, .002 from 100 on
-             [bound bilateral_sg_weight model .02 over 10 1e5] [bound bilateral_sg_weight sharp .002 over 100 1e6]
-   Source:   004, Eq. 12: (4 li lj / (li + lj)^2)^(beta / 2) times an SG of sharpness beta li lj / (li + lj)
-*/
-LOBE_API float bilateral_sg_weight(sg_lobe i, sg_lobe j, float beta) {
-    float ti = lobe_bilateral_width(i.sharpness), tj = lobe_bilateral_width(j.sharpness), inverse = 1 / (ti + tj);
-    LOBE_ASSERT(i.sharpness >= 0 && j.sharpness >= 0 && beta > 0);
-    return lobe_exp2(0.5f * beta *
-                     (lobe_bilateral_log2(lobe_bilateral_overlap(ti, tj, inverse)) -
-                      LOBE_LOG2E * lobe_chord_squared(i.axis, j.axis) * inverse));
-}
-
 /* ln of the integral of the product of two mixtures over 4 pi, amplitudes over e^top */
 LOBE_API float lobe_bilateral_log_product(const sg_lobe *i, int ni, float top_i, const sg_lobe *j, int nj,
                                           float top_j) {
@@ -332,6 +312,23 @@ LOBE_INLINE float bilateral_sg_tap_power(float exponent, bilateral_sg i, bilater
     float inverse = 1 / (i.width + j.width), s = (i.width - j.width) * inverse;
     return lobe_bilateral_power(lobe_at_least(1 - s * s, 0), half_beta) *
            lobe_exp2(exponent - lobe_bilateral_squared(i.axis, j.axis) * inverse);
+}
+
+/*
+ bilateral_sg_weight - similarity of two SGs
+
+   i, j       sharpness [0, 1e30], counts as within [1e-15, 1e18]; amplitudes do not matter
+   returns    q^beta
+
+   Rounding: <= 12 similarity   [bound bilateral_sg_weight similarity 12 over 1e-8 1e10]
+   Model:    against bilateral_sg_mixture_weight of one lobe each and for beta 20: within .02 for a sharpness of 10 or
+             more of both, .002 from 100 on
+             [bound bilateral_sg_weight model .02 over 10 1e5] [bound bilateral_sg_weight sharp .002 over 100 1e6]
+   Source:   004, Eq. 12: (4 li lj / (li + lj)^2)^(beta / 2) times an SG of sharpness beta li lj / (li + lj)
+*/
+LOBE_INLINE float bilateral_sg_weight(sg_lobe i, sg_lobe j, float beta) {
+    LOBE_ASSERT(i.sharpness >= 0 && j.sharpness >= 0 && beta > 0);
+    return bilateral_sg_tap(0, bilateral_sg_prepare(i, beta), bilateral_sg_prepare(j, beta), beta);
 }
 
 /* How many pixels go through the stages of a row at once: what the stages leave stays in the first cache. */
