@@ -16,7 +16,7 @@ OPENMP := $(call has,-fopenmp)
 endif
 COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS)
 
-HEADERS = sg.h asg.h fis.h ggx_bound.h
+HEADERS = sg.h asg.h fis.h ggx_bound.h bilateral.h
 EXAMPLES = vsgl glossy_plane light_culling env_lights
 COMMON = $(wildcard examples/common/*.c)
 TESTS = $(wildcard tests/*.c)

@@ -269,7 +269,7 @@ typedef struct lobe_asg_pair {
 
 /* In an order of sums that exchanging the lobes does not change: then the integral is symmetric to the last bit, if the
    compiler does not contract them. */
-LOBE_API lobe_asg_pair lobe_asg_pair_of(asg_lobe a, asg_lobe b) {
+LOBE_INLINE lobe_asg_pair lobe_asg_pair_of(asg_lobe a, asg_lobe b) {
     lobe_asg_pair k;
     float l1 = lobe_at_most(a.sharpness_x, 1e9f), l2 = lobe_at_most(a.sharpness_y, 1e9f);
     float l3 = lobe_at_most(b.sharpness_x, 1e9f), l4 = lobe_at_most(b.sharpness_y, 1e9f);
@@ -293,49 +293,54 @@ LOBE_API lobe_asg_pair lobe_asg_pair_of(asg_lobe a, asg_lobe b) {
     return k;
 }
 
-/* The product integral as factor and exponent: a filter may keep its own lobe's and subtract exponents.
-   Sharpness above 1e9 counts as 1e9. */
-LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
-    lobe_asg_pair k = lobe_asg_pair_of(a, b);
-    float trace = k.trace, tau, value, slope, bend, d, e2, e3, u, v, g0, g1, g2, g, h, lift, c, ca, cb, whole, cross,
-          area, inverse;
-    LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && b.sharpness_x >= 0 && b.sharpness_y >= 0);
+/* Of the product as a density: tau, and the means of za.w zb.w, (za.w)^2 and (zb.w)^2, which are over root2 pi e^tau /
+   sqrt(scale) that of a Gaussian. */
+typedef struct lobe_asg_means {
+    float tau, ab, aa, bb, scale;
+} lobe_asg_means;
+
+LOBE_INLINE lobe_asg_means lobe_asg_means_of(lobe_asg_pair k) {
+    lobe_asg_means m;
+    float trace = k.trace, rest = k.m2 - trace, tau, value, slope, bend, d, e2, e3, u, v, g0, g1, g2, g, inverse;
     /* tau is near the largest root of 2 P - P', P = det(Q + tau I): one step of Halley's from near the smallest
        eigenvalue's lower bound det / m2, with everything over m2, so that squares do not overflow */
     inverse = 1 / (k.m2 + 1);
     tau = 1.321882f - k.det * inverse;
-    value = inverse * (((tau + trace - 1.5f) * tau + k.m2 - trace) * tau + k.det - 0.5f * k.m2);
-    slope = inverse * ((3 * tau + 2 * (trace - 1.5f)) * tau + k.m2 - trace);
-    bend = inverse * (3 * tau + trace - 1.5f);
+    bend = tau + (trace - 1.5f);
+    value = inverse * ((bend * tau + rest) * tau + (k.det - 0.5f * k.m2));
+    slope = inverse * ((tau + 2 * bend) * tau + rest);
+    bend = inverse * (2 * tau + bend);
     tau -= value * slope / (slope * slope - value * bend); /* positive: all roots are real */
     /* Second and fourth moments of the Bingham density, as polynomials of the symmetric functions e2, e3 of its
        variances. The bounds of d and c hold but for rounding near equal eigenvalues, where the value is 0; that of e2
        belongs to the fit: tau is rough for sharpness below 1. */
-    d = lobe_at_least(0.5f * ((3 * tau + 2 * trace) * tau + k.m2), 0.1f + 1e-5f * k.m2);
+    d = lobe_at_least((1.5f * tau + trace) * tau + 0.5f * k.m2, 0.1f + 1e-5f * k.m2);
     e3 = 0.125f / d;
     e2 = lobe_at_least(lobe_at_most(2 * e3 * (trace + 3 * tau), 0.333333333f), 0);
-    u = 3 * e2;
-    v = 27 * e3;
-    g0 = v * (-0.2112965f + 0.2494492f * u);
-    g1 = 0.6530841f + u * (2.875329f - 2.399835f * u) + v * (0.9055348f - 0.8977529f * u);
-    g2 = 0.2046798f + u * (-2.830942f + 1.493817f * u) + v * (-0.8580086f + 1.091629f * u);
+    g0 = e3 * (-5.7050055f + 20.2053852f * e2);
+    g1 = (0.6530841f + e3 * 24.4494396f) + e2 * (8.625987f - 21.598515f * e2 - e3 * 72.7179849f);
+    g2 = (0.2046798f - e3 * 23.1662322f) + e2 * (-8.492826f + 13.444353f * e2 + e3 * 88.421949f);
     g = 4 * e3 * (g1 + g2);
-    h = g0 + g2 * (2 * tau * e3 - e2);
-    lift = 2 * g2 * e3;
-    v = tau * (trace + tau);
-    c = h * k.cosine + g * (k.adj_ab + v * k.cosine);
-    ca = h + lift * k.quad_a + g * (k.adj_aa + (v - tau * k.quad_a));
-    cb = h + lift * k.quad_b + g * (k.adj_bb + (v - tau * k.quad_b));
-    /* E max(za.w, 0) max(zb.w, 0) by the arc-cosine kernel, without the arc cosine */
-    whole = lobe_at_least(ca * cb, 1e-30f);
-    area = sqrtf(whole);
-    cross = lobe_at_least((area - c) * (area + c), 0);
-    area = whole + fabsf(c) * (1.5707963f * area + 0.4292037f * fabsf(c));
-    u = d * (1 - 2 * e2);
-    inverse = 1 / (area * u); /* one division for both quotients */
-    c = 0.5f * lobe_at_least(c, 0) + 0.5f / LOBE_PI * (cross * sqrtf(cross)) * (u * inverse);
-    *exponent = (a.log_amplitude + b.log_amplitude) + tau;
-    return LOBE_PI * lobe_at_most(c, 2) * sqrtf(area * inverse);
+    u = g2 * e3;
+    v = tau * (trace + tau) * g + (g0 + (2 * tau * u - g2 * e2));
+    u = 2 * u - tau * g;
+    m.tau = tau;
+    m.ab = v * k.cosine + g * k.adj_ab;
+    m.aa = v + (u * k.quad_a + g * k.adj_aa);
+    m.bb = v + (u * k.quad_b + g * k.adj_bb);
+    m.scale = d - 2 * d * e2;
+    return m;
+}
+
+/* The mean of max(za.w, 0) max(zb.w, 0) by the arc-cosine kernel, without the arc cosine, and what it is to be
+   multiplied by: the product integral of lobes of peak 1 is pi mean sqrt(square) e^tau. */
+LOBE_INLINE float lobe_asg_clamped_mean(lobe_asg_means m, float *square) {
+    float c = m.ab, size = fabsf(c), whole = lobe_at_least(m.aa * m.bb, 1e-30f), area = sqrtf(whole);
+    float cross = lobe_at_least((area - c) * (area + c), 0), inverse;
+    area = whole + size * (1.5707963f * area + 0.4292037f * size);
+    inverse = 1 / (area * m.scale); /* one division for both quotients */
+    *square = area * inverse;
+    return lobe_at_most(0.5f * lobe_at_least(c, 0) + 0.5f / LOBE_PI * (cross * sqrtf(cross)) * (m.scale * inverse), 2);
 }
 
 /*
@@ -348,25 +353,22 @@ LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
              [bound asg_product_integral directional 5 over 1e6 1e8]
              and 16 against the formula in double where above 1 % of the mean below
              [bound asg_product_integral formula 16 over 1e-2 1e6]
-             The weight, the integral over the geometric mean of the lobes' integrals with themselves, is exactly 1 for
-             a lobe and itself (by one copy of the code, if -ffast-math) and at most 1 + 3e-4 else; of lobes of any
-             sharpness up to 1e9 it is symmetric to 1.5e-6, and to the last bit where sums are not contracted
+             Over the geometric mean of the lobes' integrals with themselves it is at most 1 + 3e-4; of lobes of any
+             sharpness up to 1e9 it is symmetric to 1.5e-6 of that, and to the last bit where sums are not contracted
              [bound asg_product_integral symmetric 1.5e-6] [bound asg_product_integral excess 3e-4]
-             As one lobe turns away from the other it falls, but for 1e-6   [bound asg_product_integral monotone 1e-6]
    Model:    within .0125 of that mean, relative RMS .045 where the value is above 1 % of it; for sharpness of 10 or
-             more within .003 relative where it is above 1 % of the mean; the weight, as 004, Eq. 13 with beta 1,
-             within .0125, RMS .001
+             more within .003 relative where it is above 1 % of the mean
              [bound asg_product_integral aligned .0125 over 1e-2 1e5]
              [bound asg_product_integral rms .045 over 1e-2 1e5] [bound asg_product_integral sharp .003 over 10 1e5]
-             [bound asg_product_integral weight .0125 over .1 1e5]
-             [bound asg_product_integral weight_rms .001 over .1 1e5]
    Source:   derived for this library: saddlepoint of the Bingham normaliser, fitted moments, and the arc-cosine kernel
              for both clamped cosines. No eigenvectors: the coefficients of the characteristic polynomial are sums of
              positive terms, where Cardano's formula cancels (004, "Errors of ASGs").
 */
 LOBE_API float asg_product_integral(asg_lobe a, asg_lobe b) {
-    float exponent, factor = lobe_asg_product(a, b, &exponent);
-    return factor * lobe_asg_exp(exponent);
+    lobe_asg_means m = lobe_asg_means_of(lobe_asg_pair_of(a, b));
+    float square, mean = lobe_asg_clamped_mean(m, &square);
+    LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && b.sharpness_x >= 0 && b.sharpness_y >= 0);
+    return LOBE_PI * mean * sqrtf(square) * lobe_asg_exp((a.log_amplitude + b.log_amplitude) + m.tau);
 }
 
 /*

@@ -89,7 +89,7 @@ static void usage(FILE *to) {
 }
 
 int main(int argc, char **argv) {
-    const test_case *tables[5];
+    const test_case *tables[7];
     const char *wanted = "";
     int passed = 0, failed = 0, i;
     size_t table;
@@ -97,7 +97,9 @@ int main(int argc, char **argv) {
     tables[1] = asg_tests;
     tables[2] = fis_tests;
     tables[3] = ggx_bound_tests;
-    tables[4] = raster_tests;
+    tables[4] = bilateral_tests;
+    tables[5] = bilateral_asg_tests;
+    tables[6] = raster_tests;
     test_files = argv[0];
     for (i = 1; i < argc; i++) {
         if (!strcmp(argv[i], "--help")) {

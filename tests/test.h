@@ -64,6 +64,8 @@ extern const test_case sg_tests[];
 extern const test_case asg_tests[];
 extern const test_case fis_tests[];
 extern const test_case ggx_bound_tests[];
+extern const test_case bilateral_tests[];
+extern const test_case bilateral_asg_tests[];
 extern const test_case raster_tests[];
 
 #endif

@@ -11,7 +11,7 @@
 
 #include "../test.h"
 
-enum { BENCH_COUNT = 4096, BENCH_INPUTS = 24, BENCH_OUTPUTS = 8, BENCH_FORMS = 12, BENCH_RUNS = 2 * BENCH_FORMS };
+enum { BENCH_COUNT = 4096, BENCH_INPUTS = 24, BENCH_OUTPUTS = 8, BENCH_FORMS = 12, BENCH_RUNS = 2 * BENCH_FORMS + 1 };
 
 /* Column by column; what a column holds is the row's own matter. */
 typedef struct {
@@ -43,10 +43,14 @@ typedef struct {
 extern const bench_row sg_bench[];
 extern const bench_row asg_bench[];
 extern const bench_row ggx_bound_bench[];
+extern const bench_row bilateral_bench[];
 
-/* Kernels and pyramids are no loops over columns: this prints their tables whose name contains wanted, and says how many
-   it printed. */
-int fis_bench(const char *wanted);
+/* What is no loop over columns: a table of its own. */
+void fis_level_bench(void);
+void fis_flicker_bench(void);
+void fis_build_bench(void);
+void bilateral_filter_bench(void);
+void bilateral_figure4(void);
 
 /* Median seconds of run(0) to run(count - 1), interleaved; count is at most BENCH_RUNS. */
 void bench_medians(void (*run)(int which), int count, double *medians);

@@ -4,7 +4,6 @@
 #include "../../fis.h"
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static void *allocate(size_t size) {
     void *memory = malloc(size);
@@ -47,7 +46,7 @@ static void run_method(int method) {
     }
 }
 
-static void print_kernels(void) {
+void fis_level_bench(void) {
     const char *name;
     float *image, *memory = (float *)allocate(fis_pyramid_size(FIS_SIDE, FIS_SIDE, 1) * sizeof *memory);
     double *sums = (double *)allocate(fis_split_size(FIS_SIDE, FIS_SIDE) * sizeof *sums);
@@ -81,7 +80,7 @@ static void print_kernels(void) {
     free(memory);
 }
 
-static void print_flicker(void) {
+void fis_flicker_bench(void) {
     fis_quality row[FIS_METHODS];
     double flicker[FIS_METHODS];
     int i;
@@ -127,7 +126,7 @@ static void run_build(int which) {
         fis_build_pdf(built.memory, built.image, built.width, built.height);
 }
 
-static void print_builds(void) {
+void fis_build_bench(void) {
     static const int sizes[][3] = {{512, 512, 1}, {512, 512, 16}, {1920, 1088, 1}, {1920, 1088, 16}};
     static const char *const names[] = {"its bytes moved", "fis_build", "fis_build_pdf"};
     size_t size, i, count;
@@ -155,18 +154,4 @@ static void print_builds(void) {
         free(memory[1]);
         free(memory[0]);
     }
-}
-
-int fis_bench(const char *wanted) {
-    static const struct {
-        const char *name;
-        void (*print)(void);
-    } tables[] = {{"fis_level", print_kernels}, {"fis_flicker", print_flicker}, {"fis_build", print_builds}};
-    int printed = 0, i;
-    for (i = 0; i < 3; i++) {
-        if (!strstr(tables[i].name, wanted)) continue;
-        tables[i].print();
-        printed++;
-    }
-    return printed;
 }
