@@ -293,9 +293,9 @@ LOBE_API lobe_asg_pair lobe_asg_pair_of(asg_lobe a, asg_lobe b) {
     return k;
 }
 
-/* The product integral as factor and exponent: a filter may keep its own lobe's and subtract exponents.
-   Sharpness above 1e9 counts as 1e9. */
-LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
+/* The product integral of lobes of peak 1 as mean, square and exponent, pi mean sqrt(square) exp(exponent): a filter may
+   keep its own lobe's and subtract exponents. Sharpness above 1e9 counts as 1e9. */
+LOBE_API float lobe_asg_product_parts(asg_lobe a, asg_lobe b, float *square, float *exponent) {
     lobe_asg_pair k = lobe_asg_pair_of(a, b);
     float trace = k.trace, tau, value, slope, bend, d, e2, e3, u, v, g0, g1, g2, g, h, lift, c, ca, cb, whole, cross,
           area, inverse;
@@ -334,8 +334,16 @@ LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
     u = d * (1 - 2 * e2);
     inverse = 1 / (area * u); /* one division for both quotients */
     c = 0.5f * lobe_at_least(c, 0) + 0.5f / LOBE_PI * (cross * sqrtf(cross)) * (u * inverse);
-    *exponent = (a.log_amplitude + b.log_amplitude) + tau;
-    return LOBE_PI * lobe_at_most(c, 2) * sqrtf(area * inverse);
+    *square = area * inverse;
+    *exponent = tau;
+    return lobe_at_most(c, 2);
+}
+
+/* The same as factor and exponent, with the amplitudes. */
+LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
+    float square, mean = lobe_asg_product_parts(a, b, &square, exponent);
+    *exponent += a.log_amplitude + b.log_amplitude;
+    return LOBE_PI * mean * sqrtf(square);
 }
 
 /*
