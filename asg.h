@@ -269,7 +269,7 @@ typedef struct lobe_asg_pair {
 
 /* In an order of sums that exchanging the lobes does not change: then the integral is symmetric to the last bit, if the
    compiler does not contract them. */
-LOBE_API lobe_asg_pair lobe_asg_pair_of(asg_lobe a, asg_lobe b) {
+LOBE_INLINE lobe_asg_pair lobe_asg_pair_of(asg_lobe a, asg_lobe b) {
     lobe_asg_pair k;
     float l1 = lobe_at_most(a.sharpness_x, 1e9f), l2 = lobe_at_most(a.sharpness_y, 1e9f);
     float l3 = lobe_at_most(b.sharpness_x, 1e9f), l4 = lobe_at_most(b.sharpness_y, 1e9f);
@@ -295,43 +295,42 @@ LOBE_API lobe_asg_pair lobe_asg_pair_of(asg_lobe a, asg_lobe b) {
 
 /* The product integral of lobes of peak 1 as mean, square and exponent, pi mean sqrt(square) exp(exponent): a filter may
    keep its own lobe's and subtract exponents. Sharpness above 1e9 counts as 1e9. */
-LOBE_API float lobe_asg_product_parts(asg_lobe a, asg_lobe b, float *square, float *exponent) {
-    lobe_asg_pair k = lobe_asg_pair_of(a, b);
-    float trace = k.trace, tau, value, slope, bend, d, e2, e3, u, v, g0, g1, g2, g, h, lift, c, ca, cb, whole, cross,
-          area, inverse;
-    LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && b.sharpness_x >= 0 && b.sharpness_y >= 0);
+LOBE_INLINE float lobe_asg_pair_integral(lobe_asg_pair k, float *square, float *exponent) {
+    float trace = k.trace, rest = k.m2 - trace, tau, value, slope, bend, d, e2, e3, u, v, g0, g1, g2, g, h, lift, c, ca,
+          cb, whole, cross, area, inverse;
     /* tau is near the largest root of 2 P - P', P = det(Q + tau I): one step of Halley's from near the smallest
        eigenvalue's lower bound det / m2, with everything over m2, so that squares do not overflow */
     inverse = 1 / (k.m2 + 1);
     tau = 1.321882f - k.det * inverse;
-    value = inverse * (((tau + trace - 1.5f) * tau + k.m2 - trace) * tau + k.det - 0.5f * k.m2);
-    slope = inverse * ((3 * tau + 2 * (trace - 1.5f)) * tau + k.m2 - trace);
-    bend = inverse * (3 * tau + trace - 1.5f);
+    bend = tau + (trace - 1.5f);
+    value = inverse * ((bend * tau + rest) * tau + (k.det - 0.5f * k.m2));
+    slope = inverse * ((tau + 2 * bend) * tau + rest);
+    bend = inverse * (2 * tau + bend);
     tau -= value * slope / (slope * slope - value * bend); /* positive: all roots are real */
     /* Second and fourth moments of the Bingham density, as polynomials of the symmetric functions e2, e3 of its
        variances. The bounds of d and c hold but for rounding near equal eigenvalues, where the value is 0; that of e2
        belongs to the fit: tau is rough for sharpness below 1. */
-    d = lobe_at_least(0.5f * ((3 * tau + 2 * trace) * tau + k.m2), 0.1f + 1e-5f * k.m2);
+    d = lobe_at_least((1.5f * tau + trace) * tau + 0.5f * k.m2, 0.1f + 1e-5f * k.m2);
     e3 = 0.125f / d;
     e2 = lobe_at_least(lobe_at_most(2 * e3 * (trace + 3 * tau), 0.333333333f), 0);
-    u = 3 * e2;
-    v = 27 * e3;
-    g0 = v * (-0.2112965f + 0.2494492f * u);
-    g1 = 0.6530841f + u * (2.875329f - 2.399835f * u) + v * (0.9055348f - 0.8977529f * u);
-    g2 = 0.2046798f + u * (-2.830942f + 1.493817f * u) + v * (-0.8580086f + 1.091629f * u);
+    g0 = e3 * (-5.7050055f + 20.2053852f * e2);
+    g1 = (0.6530841f + e3 * 24.4494396f) + e2 * (8.625987f - 21.598515f * e2 - e3 * 72.7179849f);
+    g2 = (0.2046798f - e3 * 23.1662322f) + e2 * (-8.492826f + 13.444353f * e2 + e3 * 88.4219490f);
     g = 4 * e3 * (g1 + g2);
-    h = g0 + g2 * (2 * tau * e3 - e2);
-    lift = 2 * g2 * e3;
-    v = tau * (trace + tau);
-    c = h * k.cosine + g * (k.adj_ab + v * k.cosine);
-    ca = h + lift * k.quad_a + g * (k.adj_aa + (v - tau * k.quad_a));
-    cb = h + lift * k.quad_b + g * (k.adj_bb + (v - tau * k.quad_b));
+    u = g2 * e3;
+    h = g0 + (2 * tau * u - g2 * e2);
+    lift = 2 * u;
+    v = tau * (trace + tau) * g + h;
+    u = lift - tau * g;
+    c = v * k.cosine + g * k.adj_ab;
+    ca = v + (u * k.quad_a + g * k.adj_aa);
+    cb = v + (u * k.quad_b + g * k.adj_bb);
     /* E max(za.w, 0) max(zb.w, 0) by the arc-cosine kernel, without the arc cosine */
     whole = lobe_at_least(ca * cb, 1e-30f);
     area = sqrtf(whole);
     cross = lobe_at_least((area - c) * (area + c), 0);
     area = whole + fabsf(c) * (1.5707963f * area + 0.4292037f * fabsf(c));
-    u = d * (1 - 2 * e2);
+    u = d - 2 * d * e2;
     inverse = 1 / (area * u); /* one division for both quotients */
     c = 0.5f * lobe_at_least(c, 0) + 0.5f / LOBE_PI * (cross * sqrtf(cross)) * (u * inverse);
     *square = area * inverse;
@@ -341,7 +340,8 @@ LOBE_API float lobe_asg_product_parts(asg_lobe a, asg_lobe b, float *square, flo
 
 /* The same as factor and exponent, with the amplitudes. */
 LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
-    float square, mean = lobe_asg_product_parts(a, b, &square, exponent);
+    float square, mean = lobe_asg_pair_integral(lobe_asg_pair_of(a, b), &square, exponent);
+    LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && b.sharpness_x >= 0 && b.sharpness_y >= 0);
     *exponent += a.log_amplitude + b.log_amplitude;
     return LOBE_PI * mean * sqrtf(square);
 }

@@ -83,24 +83,32 @@ typedef struct bilateral_asg {
 
 /* ---- private helpers ---- */
 
-/* log2 of the overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj): at most 0, and 0 for equal ones. Near 1
-   by its difference from 1, which is a square. */
-LOBE_API float lobe_bilateral_overlap(float ti, float tj, float inverse) {
-    float s = (ti - tj) * inverse, overlap = 4 * (ti * inverse) * (tj * inverse), whole, f;
-    unsigned u;
-    memcpy(&u, &overlap, sizeof u);
-    u += 0x3F800000u - 0x3F3504F3u; /* as lobe_log */
-    whole = (float)((int)(u >> 23) - 127);
-    u = (u & 0x007FFFFFu) + 0x3F3504F3u;
-    memcpy(&f, &u, sizeof f);
-    f = lobe_select(whole > -0.5f, -(s * s), f - 1);
-    return whole + LOBE_LOG2E * (f * lobe_log_slope(f));
+/* log2 x for x from 2^-126, which counts as at most 1: then 0.   [bound lobe_bilateral_log2 abs 4e-7] */
+LOBE_API float lobe_bilateral_log2(float x) {
+    int bits, power;
+    float f, f2, slope;
+    x = lobe_at_most(x, 1);
+    memcpy(&bits, &x, sizeof bits);
+    power = (bits - 0x3F3504F3) & ~0x007FFFFF; /* as lobe_log */
+    bits -= power;
+    memcpy(&f, &bits, sizeof f);
+    f -= 1;
+    f2 = f * f;
+    slope = (1.44269973f - 0.721375871f * f) +
+            f2 * ((0.480465014f - 0.358961895f * f) + f2 * ((0.297262908f - 0.272697535f * f) + f2 * 0.170632825f));
+    return 1.1920929e-7f * (float)power + f * slope;
 }
 
 /* x^n for n in 0 .. 15 */
 LOBE_API float lobe_bilateral_power(float x, int n) {
     float x2 = x * x, x4 = x2 * x2, x8 = x4 * x4;
     return (n & 1 ? x : 1) * (n & 2 ? x2 : 1) * ((n & 4 ? x4 : 1) * (n & 8 ? x8 : 1));
+}
+
+/* The overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj), so much too large that it is at least 1 for equal
+   ones. */
+LOBE_API float lobe_bilateral_overlap(float ti, float tj, float inverse) {
+    return 4.00000191f * (ti * inverse) * (tj * inverse);
 }
 
 LOBE_API float lobe_bilateral_width(float sharpness) {
@@ -129,16 +137,16 @@ LOBE_API float bilateral_gaussian_weight(float mi, float vi, float mj, float vj,
     float ti = lobe_at_most(lobe_at_least(vi, 1e-18f), 1e15f), tj = lobe_at_most(lobe_at_least(vj, 1e-18f), 1e15f);
     float inverse = 1 / (ti + tj), d = mi - mj;
     LOBE_ASSERT(vi >= 0 && vj >= 0 && beta > 0);
-    return lobe_exp2(beta * (0.25f * lobe_bilateral_overlap(ti, tj, inverse) -
+    return lobe_exp2(beta * (0.25f * lobe_bilateral_log2(lobe_bilateral_overlap(ti, tj, inverse)) -
                              0.5f * LOBE_LOG2E * lobe_at_most(d * d, 1e15f) * inverse));
 }
 
 LOBE_API float bilateral_sg_weight(sg_lobe i, sg_lobe j, float beta) {
     float ti = lobe_bilateral_width(i.sharpness), tj = lobe_bilateral_width(j.sharpness), inverse = 1 / (ti + tj);
     LOBE_ASSERT(i.sharpness >= 0 && j.sharpness >= 0 && beta > 0);
-    return lobe_exp2(
-        0.5f * beta *
-        (lobe_bilateral_overlap(ti, tj, inverse) - LOBE_LOG2E * lobe_chord_squared(i.axis, j.axis) * inverse));
+    return lobe_exp2(0.5f * beta *
+                     (lobe_bilateral_log2(lobe_bilateral_overlap(ti, tj, inverse)) -
+                      LOBE_LOG2E * lobe_chord_squared(i.axis, j.axis) * inverse));
 }
 
 /* ln of the integral of the product of two mixtures over 4 pi, amplitudes over e^top */
@@ -189,7 +197,7 @@ LOBE_API float bilateral_depth_exponent(float zi, float zj) {
     return -(d * d);
 }
 
-LOBE_API float bilateral_normal_tap(float exponent, lobe_vec3 ni, lobe_vec3 nj) {
+LOBE_INLINE float bilateral_normal_tap(float exponent, lobe_vec3 ni, lobe_vec3 nj) {
     return lobe_exp2(exponent - lobe_bilateral_squared(ni, nj));
 }
 
@@ -201,25 +209,50 @@ LOBE_API bilateral_sg bilateral_sg_prepare(sg_lobe g, float beta) {
     return p;
 }
 
-LOBE_API float bilateral_sg_tap(float exponent, bilateral_sg i, bilateral_sg j, float beta) {
+LOBE_INLINE float bilateral_sg_tap(float exponent, bilateral_sg i, bilateral_sg j, float beta) {
     float inverse = 1 / (i.width + j.width);
-    return lobe_exp2(exponent + 0.5f * beta * lobe_bilateral_overlap(i.width, j.width, inverse) -
+    return lobe_exp2(exponent + 0.5f * beta * lobe_bilateral_log2(lobe_bilateral_overlap(i.width, j.width, inverse)) -
                      lobe_bilateral_squared(i.axis, j.axis) * inverse);
 }
 
-LOBE_API float bilateral_sg_tap_power(float exponent, bilateral_sg i, bilateral_sg j, int half_beta) {
+LOBE_INLINE float bilateral_sg_tap_power(float exponent, bilateral_sg i, bilateral_sg j, int half_beta) {
     float inverse = 1 / (i.width + j.width), s = (i.width - j.width) * inverse;
     return lobe_bilateral_power(lobe_at_least(1 - s * s, 0), half_beta) *
            lobe_exp2(exponent - lobe_bilateral_squared(i.axis, j.axis) * inverse);
 }
 
-LOBE_API float bilateral_sg_pair(bilateral_sg_part a, bilateral_sg_part b) {
-    float sum = a.sharpness + b.sharpness, sum2 = sum * sum;
-    float p = lobe_at_most(a.sharpness * b.sharpness * lobe_bilateral_squared(a.axis, b.axis), 0.999999f * sum2);
-    float size = sqrtf(sum2 - p), both = size + sum, inverse = 1 / (size * both);
-    float whole, power, x = -LOBE_LOG2E * (p * (inverse * size)), r = lobe_exp2_split(x, &whole, &power);
-    float e = r * lobe_exp2_slope(r), value = power * (1 + e);
-    return a.amplitude * b.amplitude * (value - a.tail * b.tail / lobe_at_least(value, 1e-30f)) * (both * inverse);
+/* What a product of two parts is made of: exponent and factor, and the product of tails. */
+typedef struct lobe_bilateral_pair {
+    float exponent, factor, tail;
+} lobe_bilateral_pair;
+
+LOBE_INLINE lobe_bilateral_pair lobe_bilateral_pair_of(bilateral_sg_part a, bilateral_sg_part b) {
+    lobe_bilateral_pair p;
+    float sum = a.sharpness + b.sharpness, squared = sum * sum;
+    float lost = lobe_at_most(a.sharpness * b.sharpness * lobe_bilateral_squared(a.axis, b.axis), 0.99999f * squared);
+    float size = sqrtf(squared - lost), both = size + sum, inverse = 1 / (size * both);
+    p.exponent = lost * (inverse * size);
+    p.factor = a.amplitude * b.amplitude * (both * inverse);
+    p.tail = a.tail * b.tail;
+    return p;
+}
+
+LOBE_INLINE float lobe_bilateral_pair_value(lobe_bilateral_pair p) {
+    float x = lobe_at_most(p.exponent, 125), power, inverse, r, r2, even, odd;
+    int k = (int)(127.5f - x);
+    unsigned u = (unsigned)k << 23;
+    r = (127 - (float)k) - x;
+    memcpy(&power, &u, sizeof power);
+    u = 0x7F000000u - u;
+    memcpy(&inverse, &u, sizeof inverse);
+    r2 = r * r;
+    even = 1 + r2 * (0.240222346f + r2 * 0.0096718776f);
+    odd = r * (0.693147215f + r2 * (0.0555030847f + r2 * 0.00134072204f));
+    return p.factor * (power * (even + odd) - p.tail * (inverse * (even - odd)));
+}
+
+LOBE_INLINE float bilateral_sg_pair(bilateral_sg_part a, bilateral_sg_part b) {
+    return lobe_bilateral_pair_value(lobe_bilateral_pair_of(a, b));
 }
 
 LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bilateral_sg_part *parts) {
@@ -228,9 +261,9 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
     LOBE_ASSERT(count > 0);
     for (l = 0; l < count; l++) {
         parts[l].axis = lobes[l].axis;
-        parts[l].sharpness = lobe_at_most(lobe_at_least(lobes[l].sharpness, 0.015625f), 1e18f);
+        parts[l].sharpness = LOBE_LOG2E * lobe_at_most(lobe_at_least(lobes[l].sharpness, 0.015625f), 1e18f);
         parts[l].amplitude = lobe_exp(lobes[l].log_amplitude - top);
-        parts[l].tail = lobe_exp(-2 * parts[l].sharpness);
+        parts[l].tail = lobe_select(lobes[l].sharpness < 16, lobe_exp(-2 * lobes[l].sharpness), 0);
     }
     for (l = 0; l < count; l++) {
         for (m = 0; m < count; m++) own += bilateral_sg_pair(parts[l], parts[m]);
@@ -239,8 +272,49 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
     for (l = 0; l < count; l++) parts[l].amplitude *= scale;
 }
 
-LOBE_API float bilateral_sg_mixture_tap(float exponent, float product, float beta) {
-    return lobe_exp2(exponent + beta * LOBE_LOG2E * lobe_log(lobe_at_most(product, 1)));
+LOBE_INLINE float bilateral_sg_mixture_tap(float exponent, float product, float beta) {
+    return lobe_exp2(exponent + beta * lobe_bilateral_log2(product));
+}
+
+enum { LOBE_BILATERAL_BLOCK = 64 };
+
+LOBE_INLINE bilateral_sg_part lobe_bilateral_part(const float *const *planes, int x) {
+    bilateral_sg_part p;
+    p.axis = lobe_vector(planes[0][x], planes[1][x], planes[2][x]);
+    p.sharpness = planes[3][x];
+    p.amplitude = planes[4][x];
+    p.tail = planes[5][x];
+    return p;
+}
+
+LOBE_API void bilateral_sg_mixture_taps(int count, int lobes, const float *const *i, const float *const *j, float beta,
+                                        float *weight) {
+    float product[LOBE_BILATERAL_BLOCK], exponent[LOBE_BILATERAL_BLOCK], factor[LOBE_BILATERAL_BLOCK],
+        tail[LOBE_BILATERAL_BLOCK];
+    int from, x, l, m;
+    for (from = 0; from < count; from += LOBE_BILATERAL_BLOCK) {
+        int n = count - from < LOBE_BILATERAL_BLOCK ? count - from : LOBE_BILATERAL_BLOCK;
+        for (x = 0; x < n; x++) product[x] = 0;
+        for (l = 0; l < lobes; l++) {
+            for (m = 0; m < lobes; m++) {
+                for (x = 0; x < n; x++) {
+                    lobe_bilateral_pair p = lobe_bilateral_pair_of(lobe_bilateral_part(i + 6 * l, from + x),
+                                                                   lobe_bilateral_part(j + 6 * m, from + x));
+                    exponent[x] = p.exponent;
+                    factor[x] = p.factor;
+                    tail[x] = p.tail;
+                }
+                for (x = 0; x < n; x++) {
+                    lobe_bilateral_pair p;
+                    p.exponent = exponent[x];
+                    p.factor = factor[x];
+                    p.tail = tail[x];
+                    product[x] += lobe_bilateral_pair_value(p);
+                }
+            }
+        }
+        for (x = 0; x < n; x++) weight[from + x] = bilateral_sg_mixture_tap(weight[from + x], product[x], beta);
+    }
 }
 
 LOBE_API asg_lobe lobe_bilateral_asg(bilateral_asg p) {
@@ -254,9 +328,21 @@ LOBE_API asg_lobe lobe_bilateral_asg(bilateral_asg p) {
     return a;
 }
 
+LOBE_INLINE bilateral_asg lobe_bilateral_asg_at(const float *const *planes, int x) {
+    bilateral_asg a;
+    a.x = lobe_vector(planes[0][x], planes[1][x], planes[2][x]);
+    a.y = lobe_vector(planes[3][x], planes[4][x], planes[5][x]);
+    a.z = lobe_vector(planes[6][x], planes[7][x], planes[8][x]);
+    a.sharpness_x = planes[9][x];
+    a.sharpness_y = planes[10][x];
+    a.own_exponent = planes[11][x];
+    a.own_scale = planes[12][x];
+    return a;
+}
+
 LOBE_API bilateral_asg bilateral_asg_prepare(asg_lobe a) {
     bilateral_asg p;
-    float square, mean = lobe_asg_product_parts(a, a, &square, &p.own_exponent);
+    float square, mean = lobe_asg_pair_integral(lobe_asg_pair_of(a, a), &square, &p.own_exponent);
     p.x = a.x;
     p.y = a.y;
     p.z = a.z;
@@ -267,11 +353,55 @@ LOBE_API bilateral_asg bilateral_asg_prepare(asg_lobe a) {
     return p;
 }
 
-LOBE_API float bilateral_asg_tap(float exponent, bilateral_asg i, bilateral_asg j, float beta) {
-    float square, tau, mean = lobe_asg_product_parts(lobe_bilateral_asg(i), lobe_bilateral_asg(j), &square, &tau);
+LOBE_INLINE float bilateral_asg_tap(float exponent, bilateral_asg i, bilateral_asg j, float beta) {
+    float square, tau,
+        mean = lobe_asg_pair_integral(lobe_asg_pair_of(lobe_bilateral_asg(i), lobe_bilateral_asg(j)), &square, &tau);
     float ratio = mean * mean * square * (i.own_scale * j.own_scale);
-    float similar = 0.5f * lobe_log(ratio) + (tau - (i.own_exponent + j.own_exponent));
+    float similar = 0.5f * lobe_bilateral_log2(ratio) + (tau - (i.own_exponent + j.own_exponent));
     return lobe_exp2(exponent - LOBE_LOG2E * beta * lobe_at_least(-similar, 0));
+}
+
+LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *const *j, float beta, float *weight) {
+    float stage[11][LOBE_BILATERAL_BLOCK], mean[LOBE_BILATERAL_BLOCK];
+    int from, x;
+    for (from = 0; from < count; from += LOBE_BILATERAL_BLOCK) {
+        int n = count - from < LOBE_BILATERAL_BLOCK ? count - from : LOBE_BILATERAL_BLOCK;
+        for (x = 0; x < n; x++) {
+            bilateral_asg a = lobe_bilateral_asg_at(i, from + x), b = lobe_bilateral_asg_at(j, from + x);
+            lobe_asg_pair k = lobe_asg_pair_of(lobe_bilateral_asg(a), lobe_bilateral_asg(b));
+            stage[0][x] = k.trace;
+            stage[1][x] = k.m2;
+            stage[2][x] = k.det;
+            stage[3][x] = k.quad_a;
+            stage[4][x] = k.quad_b;
+            stage[5][x] = k.adj_aa;
+            stage[6][x] = k.adj_bb;
+            stage[7][x] = k.adj_ab;
+            stage[8][x] = k.cosine;
+            stage[9][x] = a.own_scale * b.own_scale;
+            stage[10][x] = a.own_exponent + b.own_exponent;
+        }
+        for (x = 0; x < n; x++) {
+            lobe_asg_pair k;
+            float square, tau, m;
+            k.trace = stage[0][x];
+            k.m2 = stage[1][x];
+            k.det = stage[2][x];
+            k.quad_a = stage[3][x];
+            k.quad_b = stage[4][x];
+            k.adj_aa = stage[5][x];
+            k.adj_bb = stage[6][x];
+            k.adj_ab = stage[7][x];
+            k.cosine = stage[8][x];
+            m = lobe_asg_pair_integral(k, &square, &tau);
+            mean[x] = m * m * square * stage[9][x];
+            stage[10][x] = tau - stage[10][x];
+        }
+        for (x = 0; x < n; x++) {
+            float similar = 0.5f * lobe_bilateral_log2(mean[x]) + stage[10][x];
+            weight[from + x] = lobe_exp2(weight[from + x] - LOBE_LOG2E * beta * lobe_at_least(-similar, 0));
+        }
+    }
 }
 
 LOBE_API float bilateral_asg_weight(asg_lobe i, asg_lobe j, float beta) {

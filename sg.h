@@ -83,6 +83,11 @@ extern "C" __attribute__((__const__)) float sqrtf(float) __THROW;
 #ifndef LOBE_API
 #define LOBE_API static inline
 #endif
+#ifdef __GNUC__
+#define LOBE_INLINE LOBE_API __attribute__((always_inline)) /* for what would stay a call in a loop, since it is large */
+#else
+#define LOBE_INLINE LOBE_API
+#endif
 #ifndef LOBE_ASSERT
 #define LOBE_ASSERT(condition) ((void)0)
 #endif
