@@ -389,15 +389,6 @@ static void put_part(const planes *p, int k, ptrdiff_t at, const bilateral_sg_pa
     p->plane[PART + k * PART_PLANES + 5][at] = part->tail;
 }
 
-static inline bilateral_sg_part part_at(const planes *p, int k, ptrdiff_t at) {
-    bilateral_sg_part part;
-    part.axis = vector_at(p, PART + k * PART_PLANES, at);
-    part.sharpness = p->plane[PART + k * PART_PLANES + 3][at];
-    part.amplitude = p->plane[PART + k * PART_PLANES + 4][at];
-    part.tail = p->plane[PART + k * PART_PLANES + 5][at];
-    return part;
-}
-
 static void put_stretched(const planes *p, ptrdiff_t at, const bilateral_asg *a) {
     put_vector(p, STRETCHED, at, a->x);
     put_vector(p, STRETCHED + 3, at, a->y);
@@ -406,18 +397,6 @@ static void put_stretched(const planes *p, ptrdiff_t at, const bilateral_asg *a)
     p->plane[STRETCHED + 10][at] = a->sharpness_y;
     p->plane[STRETCHED + 11][at] = a->own_exponent;
     p->plane[STRETCHED + 12][at] = a->own_scale;
-}
-
-static inline bilateral_asg stretched_at(const planes *p, ptrdiff_t at) {
-    bilateral_asg a;
-    a.x = vector_at(p, STRETCHED, at);
-    a.y = vector_at(p, STRETCHED + 3, at);
-    a.z = vector_at(p, STRETCHED + 6, at);
-    a.sharpness_x = p->plane[STRETCHED + 9][at];
-    a.sharpness_y = p->plane[STRETCHED + 10][at];
-    a.own_exponent = p->plane[STRETCHED + 11][at];
-    a.own_scale = p->plane[STRETCHED + 12][at];
-    return a;
 }
 
 static inline sg_lobe blank_lobe(void) {
@@ -558,29 +537,21 @@ static void weigh_lobes(const planes *all, const tap_row *row, float beta, float
         weight[x] = bilateral_sg_tap(depth_exponent(&p, &t, x), narrow_at(&p, t.i + x), narrow_at(&p, t.j + x), beta);
 }
 
-static void weigh_mixtures(const planes *all, const tap_row *row, float beta, float *restrict weight) {
+/* Eq. 11 and Eq. 13, where the library runs along the row: log2 of the rest goes in, the weight comes out */
+static void weigh_planes(const planes *all, const tap_row *row, method m, float beta, float *restrict weight) {
     const planes p = *all;
     const tap_row t = *row;
-    float product[BLOCK];
-    int x, k, l;
-    for (x = 0; x < t.count; x++) product[x] = 0;
-    for (k = 0; k < p.parts; k++) {
-        for (l = 0; l < p.parts; l++) {
-            for (x = 0; x < t.count; x++)
-                product[x] += bilateral_sg_pair(part_at(&p, k, t.i + x), part_at(&p, l, t.j + x));
-        }
+    const float *i[PLANES], *j[PLANES];
+    int x, k;
+    for (x = 0; x < t.count; x++) weight[x] = depth_exponent(&p, &t, x);
+    for (k = 0; k < PLANES; k++) {
+        i[k] = p.plane[k] + t.i;
+        j[k] = p.plane[k] + t.j;
     }
-    for (x = 0; x < t.count; x++)
-        weight[x] = bilateral_sg_mixture_tap(depth_exponent(&p, &t, x), product[x], beta);
-}
-
-static void weigh_stretched(const planes *all, const tap_row *row, float beta, float *restrict weight) {
-    const planes p = *all;
-    const tap_row t = *row;
-    int x;
-    for (x = 0; x < t.count; x++)
-        weight[x] =
-            bilateral_asg_tap(depth_exponent(&p, &t, x), stretched_at(&p, t.i + x), stretched_at(&p, t.j + x), beta);
+    if (m == EQ11)
+        bilateral_sg_mixture_taps(t.count, p.parts, i + PART, j + PART, beta, weight);
+    else
+        bilateral_asg_taps(t.count, i + STRETCHED, j + STRETCHED, beta, weight);
 }
 
 static void weigh(const planes *p, const tap_row *row, method m, const float *parameter, float *weight) {
@@ -598,10 +569,8 @@ static void weigh(const planes *p, const tap_row *row, method m, const float *pa
         weigh_lobes(p, row, parameter[0], weight);
         break;
     case EQ11:
-        weigh_mixtures(p, row, parameter[0], weight);
-        break;
     case EQ13:
-        weigh_stretched(p, row, parameter[0], weight);
+        weigh_planes(p, row, m, parameter[0], weight);
         break;
     case UNFILTERED:
     case METHODS:
