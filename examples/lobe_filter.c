@@ -103,23 +103,23 @@ static glossy three_lobes(float first, float second, float third, float a, float
     return look;
 }
 
-/* Three lobes each: a clear coat in two thicknesses */
+/* Three lobes each: other lobes on the floor's tiles, other shares of the same ones on the balls */
 static glossy look_layers(const surface *hit, int which) {
-    const int coated = hit->shape == GALLERY_FLOOR ? tile_of(hit) : band_of(hit, 8) & 1;
     (void)which;
-    return coated ? three_lobes(3000, 200, 12, 0.6f, 0.3f) : three_lobes(3000, 200, 12, 0.1f, 0.3f);
+    if (hit->shape == GALLERY_FLOOR)
+        return tile_of(hit) ? three_lobes(4000, 300, 30, 0.5f, 0.3f) : three_lobes(200, 40, 6, 0.5f, 0.3f);
+    return band_of(hit, 8) & 1 ? three_lobes(3000, 200, 12, 0.6f, 0.3f) : three_lobes(3000, 200, 12, 0.1f, 0.3f);
 }
 
 /* One of three exponents, or all three in bands */
 static glossy look_phong(const surface *hit, int which) {
     static const float exponents[] = {10, 100, 1000};
-    const float e = exponents[which < 3 ? which : (band_of(hit, 9) + hit->shape) % 3];
+    const float e = exponents[which < 3 ? which : (band_of(hit, 3) + hit->shape) % 3];
     return one_lobe(GLOSSY_PHONG, e, e);
 }
 
 static glossy look_mixture(const surface *hit, int which) {
-    static const float lobes[3][5] = {
-        {60, 15, 4, 0.5f, 0.3f}, {600, 100, 12, 0.5f, 0.3f}, {6000, 700, 60, 0.5f, 0.3f}};
+    static const float lobes[3][5] = {{60, 15, 4, 0.5f, 0.3f}, {600, 100, 12, 0.5f, 0.3f}, {6000, 700, 60, 0.5f, 0.3f}};
     const float *l = lobes[which];
     (void)hit;
     return three_lobes(l[0], l[1], l[2], l[3], l[4]);
@@ -150,7 +150,7 @@ static vec3 light_of(const surface *hit) {
         return lobe_vector(shade, 0.95f * shade, 0.9f * shade);
     case GALLERY_CEILING:
         return fabsf(fabsf(p.x) - 0.8f) < 0.3f && fabsf(p.z) < 1.5f ? lobe_vector(5, 4.7f, 4.2f)
-                                                                  : lobe_vector(0.15f, 0.15f, 0.15f);
+                                                                    : lobe_vector(0.15f, 0.15f, 0.15f);
     case GALLERY_BACK:
         return is_checked(p.x, p.y, 0.25f) ? lobe_vector(0.95f, 0.75f, 0.4f) : lobe_vector(0.06f, 0.07f, 0.1f);
     case GALLERY_FRONT:
@@ -330,7 +330,7 @@ typedef enum { UNFILTERED, NORMAL, BANDLIMIT, ALPHA_GUIDE, EQ12, EQ11, EQ13, MET
 
 typedef struct {
     const char *name, *parameter;
-    int parameters;    /* 0 to 2; searched by powers of two: */
+    int parameters; /* 0 to 2; searched by powers of two: */
     float low[2], high[2];
 } method_data;
 
@@ -345,27 +345,41 @@ static const method_data methods[METHODS] = {
 };
 
 enum {
-    RED, GREEN, BLUE, VALID, DEPTH,
-    NORMAL_X, NORMAL_Y, NORMAL_Z, ALPHA, LIMIT,
-    AXIS_X = NORMAL_X, AXIS_Y, AXIS_Z, WIDTH,
-    PART = NORMAL_X, PART_PLANES = 6,
-    STRETCHED = NORMAL_X, STRETCHED_PLANES = 13,
+    RED,
+    GREEN,
+    BLUE,
+    VALID,
+    DEPTH,
+    NORMAL_X,
+    NORMAL_Y,
+    NORMAL_Z,
+    ALPHA,
+    LIMIT,
+    AXIS_X = NORMAL_X,
+    AXIS_Y,
+    AXIS_Z,
+    WIDTH,
+    PART = NORMAL_X,
+    PART_PLANES = 6,
+    STRETCHED = NORMAL_X,
+    STRETCHED_PLANES = 13,
     PLANES = PART + GLOSSY_LOBES * PART_PLANES
 };
 
 typedef struct {
-    int width, height, stride, parts;
+    int width, height, stride;
+    int parts;                     /* most lobes of a pixel */
     float *memory, *plane[PLANES]; /* at the first pixel: the border is before it */
 } planes;
 
-static planes planes_create(int width, int height) {
+static planes planes_create(int width, int height, int parts) {
     planes p;
     size_t size;
     int k;
     p.width = width;
     p.height = height;
     p.stride = width + 2 * RADIUS;
-    p.parts = 1;
+    p.parts = parts;
     size = (size_t)p.stride * (size_t)(height + 2 * RADIUS);
     p.memory = (float *)allocate("images", size, PLANES * sizeof *p.memory);
     for (k = 0; k < PLANES; k++) p.plane[k] = p.memory + (size_t)k * size + (size_t)RADIUS * (size_t)(p.stride + 1);
@@ -447,28 +461,30 @@ static void put_guide(const planes *p, ptrdiff_t at, const guide *g, method m, c
     }
 }
 
-static void fill_planes(planes *p, const guide *guides, method m, const float *parameter, float depth_variance) {
-    const float depth_scale = bilateral_scale(depth_variance);
-    int row, k;
-    p->parts = 1;
-    for (k = 0; k < p->width * p->height; k++) p->parts = guides[k].parts_count > p->parts ? guides[k].parts_count : p->parts;
-    PARALLEL_FOR
-    for (row = -RADIUS; row < p->height + RADIUS; row++) {
-        guide outside;
-        int column;
-        memset(&outside, 0, sizeof outside);
-        lobe_frame(lobe_vector(0, 0, 1), &outside.stretched.x, &outside.stretched.y);
-        outside.stretched.z = lobe_vector(0, 0, 1);
-        outside.stretched.sharpness_x = outside.stretched.sharpness_y = 1;
-        for (column = -RADIUS; column < p->width + RADIUS; column++) {
-            const ptrdiff_t at = (ptrdiff_t)row * p->stride + column;
-            const int inside = row >= 0 && row < p->height && column >= 0 && column < p->width;
-            const guide *g = inside && guides[row * p->width + column].valid ? &guides[row * p->width + column] : &outside;
-            p->plane[VALID][at] = g->valid ? 1 : 0;
-            p->plane[DEPTH][at] = g->depth * depth_scale;
-            put_guide(p, at, g, m, parameter);
-        }
+static void fill_row(const planes *p, const guide *guides, method m, const float *parameter, float depth_scale,
+                     int row) {
+    guide outside;
+    int column;
+    memset(&outside, 0, sizeof outside);
+    lobe_frame(lobe_vector(0, 0, 1), &outside.stretched.x, &outside.stretched.y);
+    outside.stretched.z = lobe_vector(0, 0, 1);
+    outside.stretched.sharpness_x = outside.stretched.sharpness_y = 1;
+    for (column = -RADIUS; column < p->width + RADIUS; column++) {
+        const ptrdiff_t at = (ptrdiff_t)row * p->stride + column;
+        const int inside = row >= 0 && row < p->height && column >= 0 && column < p->width;
+        const guide *g = inside ? &guides[(ptrdiff_t)row * p->width + column] : &outside;
+        g = g->valid ? g : &outside;
+        p->plane[VALID][at] = g->valid ? 1 : 0;
+        p->plane[DEPTH][at] = g->depth * depth_scale;
+        put_guide(p, at, g, m, parameter);
     }
+}
+
+static void fill_planes(const planes *p, const guide *guides, method m, const float *parameter, float depth_variance) {
+    const float depth_scale = bilateral_scale(depth_variance);
+    int row;
+    PARALLEL_FOR
+    for (row = -RADIUS; row < p->height + RADIUS; row++) fill_row(p, guides, m, parameter, depth_scale, row);
 }
 
 static void fill_colours(planes *p, const image *noisy) {
@@ -622,28 +638,56 @@ static void filter_row(const planes *p, method m, const float *parameter, int ro
 
 /* ---- measuring ---- */
 
+/* What an image should be, twice: their noise is independent, so that it does not count as an error. And the mean. */
+typedef struct {
+    image half[2], mean;
+} truth;
+
+static truth truth_of(const frame *f, int samples, unsigned seed, const char *label) {
+    truth t;
+    int i, k;
+    for (k = 0; k < 2; k++) t.half[k] = shade_frame(f, samples > 1 ? samples / 2 : 1, seed + 1 + (unsigned)k, 1, label);
+    t.mean = create(f->width, f->height);
+    for (i = 0; i < f->width * f->height; i++)
+        t.mean.pixels[i] = lobe_scale(lobe_add(t.half[0].pixels[i], t.half[1].pixels[i]), 0.5f);
+    return t;
+}
+
+static void truth_free(truth *t) {
+    image_free(&t->half[0]);
+    image_free(&t->half[1]);
+    image_free(&t->mean);
+}
+
 /* One noisy image, what it should be, and room for filtering it */
 typedef struct {
     frame f;
-    image noisy, wanted, result;
+    image noisy, result;
+    truth wanted;
     planes room;
 } study;
+
+static int most_parts(const frame *f) {
+    int i, most = 1;
+    for (i = 0; i < f->width * f->height; i++) most = f->guides[i].parts_count > most ? f->guides[i].parts_count : most;
+    return most;
+}
 
 static void study_begin(study *s, const subject *what, int width, int height, int samples, int reference,
                         unsigned seed) {
     const scene world = what->build();
     s->f = frame_of(&world, what, width, height);
     s->noisy = shade_frame(&s->f, samples, seed, 0, what->name);
-    s->wanted = shade_frame(&s->f, reference, seed + 1, 1, what->name);
+    s->wanted = truth_of(&s->f, reference, seed, what->name);
     s->result = create(width, height);
-    s->room = planes_create(width, height);
+    s->room = planes_create(width, height, most_parts(&s->f));
     fill_colours(&s->room, &s->noisy);
 }
 
 static void study_end(study *s) {
     frame_free(&s->f);
     image_free(&s->noisy);
-    image_free(&s->wanted);
+    truth_free(&s->wanted);
     image_free(&s->result);
     free(s->room.memory);
 }
@@ -656,15 +700,14 @@ static void run_filter(study *s, method m, const float *parameter) {
 }
 
 /* Mean square error over the channels of what is glossy */
-static double error_of(const frame *f, const image *got, const image *wanted) {
+static double error_of(const frame *f, const image *got, const truth *wanted) {
     double sum = 0;
     long count = 0;
     int i;
     for (i = 0; i < f->width * f->height; i++) {
-        vec3 d;
         if (!f->guides[i].valid) continue;
-        d = lobe_sub(got->pixels[i], wanted->pixels[i]);
-        sum += (double)lobe_dot(d, d);
+        sum += (double)lobe_dot(lobe_sub(got->pixels[i], wanted->half[0].pixels[i]),
+                                lobe_sub(got->pixels[i], wanted->half[1].pixels[i]));
         count += 3;
     }
     return count ? sum / (double)count : 0;
@@ -730,23 +773,435 @@ static double search(study *s, method m, float step, float parameter[2], progres
     progress_step(line);
     return try_filter(s, m, parameter);
 }
-int main(int argc, char**argv){
-  subject what[]={{"tiles",scene_gallery,look_tiles,0},{"models",scene_gallery,look_models,0},{"brushed",scene_gallery,look_brushed,0},{"layers",scene_gallery,look_layers,0},{"spheres",scene_spheres,look_phong,3}};
-  int k,m;
-  for(k=0;k<5;k++){
-    study s; char path[100]; progress line=progress_begin("x",METHODS);
-    double t=progress_clock();
-    study_begin(&s,&what[k],256,192,8,256,0);
-    printf("%s trace %g ms\n",what[k].name,progress_clock()-t);
-    sprintf(path,"/tmp/lobe/%s-n.png",what[k].name); image_write_png(path,&s.noisy,1);
-    sprintf(path,"/tmp/lobe/%s-w.png",what[k].name); image_write_png(path,&s.wanted,1);
-    for(m=0;m<METHODS;m++){ float p[2]; double e; int row; t=progress_clock(); e=search(&s,(method)m,2,p,&line);
-      printf("%-20s %g  %g %g  search %g ms",methods[m].name,e,(double)p[0],(double)p[1],progress_clock()-t);
-      t=progress_clock(); for(row=0;row<192;row++) filter_row(&s.room,(method)m,p,row,&s.result);
-      t=progress_clock()-t; printf("  %g ms %g ns/tap\n",t,t*1e6/(256*192*289.));
-    sprintf(path,"/tmp/lobe/%s-%d.png",what[k].name,m); image_write_png(path,&s.result,1);
+
+/* ---- time ---- */
+
+enum { ROUNDS = 5 };
+
+static double median(double *times) {
+    int i, k;
+    for (i = 1; i < ROUNDS; i++) {
+        for (k = i; k > 0 && times[k] < times[k - 1]; k--) {
+            double last = times[k];
+            times[k] = times[k - 1];
+            times[k - 1] = last;
+        }
     }
+    return times[ROUNDS / 2];
+}
+
+/* Milliseconds of each method on one core, turn by turn */
+static void time_methods(study *s, float parameters[METHODS][2], double ms[METHODS]) {
+    double times[METHODS][ROUNDS];
+    int round, m, row;
+    for (round = 0; round < ROUNDS; round++) {
+        for (m = 0; m < METHODS; m++) {
+            const double started = progress_clock();
+            for (row = -RADIUS; row < s->room.height + RADIUS; row++)
+                fill_row(&s->room, s->f.guides, (method)m, parameters[m], bilateral_scale(scene_depth_variance), row);
+            for (row = 0; row < s->room.height; row++) filter_row(&s->room, (method)m, parameters[m], row, &s->result);
+            times[m][round] = progress_clock() - started;
+        }
+    }
+    for (m = 0; m < METHODS; m++) ms[m] = median(times[m]);
+}
+
+/* ---- files ---- */
+
+typedef struct {
+    option_size size;
+    int samples, reference, seed;
+    const char *out;
+    const char *color, *depth, *normal, *alpha; /* a user's buffers */
+    float field_of_view, beta, depth_variance;
+} settings;
+
+static void name_file(char path[1024], const char *prefix, const char *rest) {
+    if (snprintf(path, 1024, "%s%s", prefix, rest) >= 1024) give_up(prefix, "name too long");
+}
+
+static void check_file(const char *prefix, const char *rest) {
+    char path[1024];
+    const char *wrong;
+    name_file(path, prefix, rest);
+    wrong = file_check(path);
+    if (wrong) give_up(path, wrong);
+}
+
+static void write_picture(const char *prefix, const char *rest, const image *picture, const char *what) {
+    char path[1024];
+    const char *wrong;
+    name_file(path, prefix, rest);
+    wrong = image_write_png(path, picture, 1);
+    if (wrong) give_up(path, wrong);
+    printf("wrote %s: %s\n", path, what);
+}
+
+static void begin_csv(file *f, char path[1024], const char *prefix, const char *rest) {
+    const char *wrong;
+    name_file(path, prefix, rest);
+    wrong = file_begin(f, path);
+    if (wrong) give_up(path, wrong);
+}
+
+static void end_csv(file *f, const char *what) {
+    const char *path = f->path, *wrong = file_end(f);
+    if (wrong) give_up(path, wrong);
+    printf("wrote %s: %s\n", path, what);
+}
+
+/* Twice the difference where something is glossy */
+static image difference(const frame *f, const image *got, const image *wanted) {
+    image result = create(f->width, f->height);
+    int i;
+    for (i = 0; i < f->width * f->height; i++) {
+        vec3 d = lobe_sub(got->pixels[i], wanted->pixels[i]);
+        if (f->guides[i].valid) result.pixels[i] = lobe_vector(2 * fabsf(d.x), 2 * fabsf(d.y), 2 * fabsf(d.z));
+    }
+    return result;
+}
+
+static void paste_with_difference(const frame *f, image *sheet, const image *got, const image *wanted, int column) {
+    image d = difference(f, got, wanted);
+    image_paste(sheet, got, column * got->width, 0);
+    image_paste(sheet, &d, column * got->width, got->height);
+    image_free(&d);
+}
+
+/* ---- Fig. 4: what Eq. 12 loses against Eq. 11 of one lobe each ---- */
+
+static void compare_similarities(const settings *o) {
+    static const float sharpnesses[] = {1, 3, 10, 30, 100, 1000};
+    enum { COLUMNS = sizeof sharpnesses / sizeof *sharpnesses, STEPS = 180 };
+    float worst[COLUMNS], where[COLUMNS];
+    char path[1024];
+    file f;
+    int i, k;
+    begin_csv(&f, path, o->out, "-similarity.csv");
+    fprintf(f.stream, "degrees");
+    for (k = 0; k < COLUMNS; k++) {
+        fprintf(f.stream, ",Eq. 11 of sharpness %g,Eq. 12", (double)sharpnesses[k]);
+        worst[k] = where[k] = 0;
+    }
+    for (i = 0; i <= STEPS; i++) {
+        const float angle = (float)i * LOBE_PI / STEPS;
+        fprintf(f.stream, "\n%d", i);
+        for (k = 0; k < COLUMNS; k++) {
+            sg_lobe a = blank_lobe(), b = blank_lobe();
+            float exact, approximate;
+            a.sharpness = b.sharpness = sharpnesses[k];
+            b.axis = lobe_vector(sinf(angle), 0, cosf(angle));
+            exact = bilateral_sg_mixture_weight(&a, 1, &b, 1, 20);
+            approximate = bilateral_sg_weight(a, b, 20);
+            fprintf(f.stream, ",%g,%g", (double)exact, (double)approximate);
+            if (fabsf(exact - approximate) <= worst[k]) continue;
+            worst[k] = fabsf(exact - approximate);
+            where[k] = angle * 180 / LOBE_PI;
+        }
+    }
+    fprintf(f.stream, "\n");
+    printf("\nEq. 12 against Eq. 11, lobes of one sharpness, beta 20 (Fig. 4): the largest difference\n\nsharpness ");
+    for (k = 0; k < COLUMNS; k++) printf("%10g", (double)sharpnesses[k]);
+    printf("\ndifference");
+    for (k = 0; k < COLUMNS; k++) printf("%10.5f", (double)worst[k]);
+    printf("\nat degrees");
+    for (k = 0; k < COLUMNS; k++) printf("%10.0f", (double)where[k]);
+    printf("\n\n");
+    end_csv(&f, "both weights over the angle (Fig. 4)");
+}
+
+/* ---- Figs. 10 to 13: the error over the parameter, one material a picture, and three in one ---- */
+
+enum { SINGLES = 3, GROUPS = 3, MATERIALS = GROUPS * SINGLES + 1, ALL_THREE = MATERIALS - 1, GRID = 45 };
+static const subject materials[MATERIALS] = {{"Phong 10", scene_spheres, look_phong, 0},
+                                             {"Phong 100", scene_spheres, look_phong, 1},
+                                             {"Phong 1000", scene_spheres, look_phong, 2},
+                                             {"three wide lobes", scene_spheres, look_mixture, 0},
+                                             {"three lobes", scene_spheres, look_mixture, 1},
+                                             {"three narrow lobes", scene_spheres, look_mixture, 2},
+                                             {"brushed 100, 5", scene_spheres, look_stretched, 0},
+                                             {"brushed 1000, 10", scene_spheres, look_stretched, 1},
+                                             {"brushed 5000, 100", scene_spheres, look_stretched, 2},
+                                             {"10, 100 and 1000", scene_spheres, look_phong, 3}};
+static const method group_methods[GROUPS] = {EQ12, EQ11, EQ13};
+
+/* Errors of one method at the powers of two that its search covers, in half steps */
+typedef struct {
+    int count;
+    double error[MATERIALS][GRID];
+} curve;
+
+static float grid_parameter(const method_data *d, int i) {
+    return exp2f(d->low[0] + 0.5f * (float)i);
+}
+
+static void find_curve(study *s, method m, int which, curve *c) {
+    int i;
+    c->count = (int)(2 * (methods[m].high[0] - methods[m].low[0])) + 1;
+    for (i = 0; i < c->count; i++) {
+        const float parameter = grid_parameter(&methods[m], i);
+        c->error[which][i] = try_filter(s, m, &parameter);
+    }
+}
+
+static double mean_of_group(const curve *c, int group, int i) {
+    const int k = group * SINGLES;
+    return (c->error[k][i] + c->error[k + 1][i] + c->error[k + 2][i]) / SINGLES;
+}
+
+static int best_of(const curve *c, int which) {
+    int i, best = 0;
+    for (i = 1; i < c->count; i++) best = c->error[which][i] < c->error[which][best] ? i : best;
+    return best;
+}
+
+static int best_of_group(const curve *c, int group) {
+    int i, best = 0;
+    for (i = 1; i < c->count; i++) best = mean_of_group(c, group, i) < mean_of_group(c, group, best) ? i : best;
+    return best;
+}
+
+static void write_curve(const settings *o, const char *rest, const char *parameter, method m, const curve *c,
+                        const char *what) {
+    char path[1024];
+    file f;
+    int i, k, group;
+    begin_csv(&f, path, o->out, rest);
+    fprintf(f.stream, "%s", parameter);
+    for (group = 0; group < GROUPS; group++) {
+        for (k = 0; k < SINGLES; k++) fprintf(f.stream, ",\"%s\"", materials[group * SINGLES + k].name);
+        fprintf(f.stream, ",mean");
+    }
+    fprintf(f.stream, ",\"%s\"\n", materials[ALL_THREE].name);
+    for (i = 0; i < c->count; i++) {
+        fprintf(f.stream, "%g", (double)grid_parameter(&methods[m], i));
+        for (group = 0; group < GROUPS; group++) {
+            for (k = 0; k < SINGLES; k++) fprintf(f.stream, ",%g", c->error[group * SINGLES + k][i]);
+            fprintf(f.stream, ",%g", mean_of_group(c, group, i));
+        }
+        fprintf(f.stream, ",%g\n", c->error[ALL_THREE][i]);
+    }
+    end_csv(&f, what);
+}
+
+/* One method's four columns: errors of a material at its own best parameter and at the group's, and the parameters */
+static void print_errors(method m, const curve *c, int group, int which) {
+    const int own = best_of(c, which), shared = best_of_group(c, group);
+    printf("%11.5f%9.3g%11.5f%9.3g", c->error[which][own], (double)grid_parameter(&methods[m], own),
+           c->error[which][shared], (double)grid_parameter(&methods[m], shared));
+}
+
+/* Prints what each method loses by a shared parameter; returns those of the three exponents. */
+static void compare_materials(const settings *o, float shared[2]) {
+    curve *normals = (curve *)allocate("curves", 2, sizeof *normals), *lobes = normals + 1;
+    progress line = progress_begin("materials", MATERIALS);
+    int i, k, group;
+    for (i = 0; i < MATERIALS; i++) {
+        const method m = i == ALL_THREE ? EQ12 : group_methods[i / SINGLES];
+        study s;
+        study_begin(&s, &materials[i], o->size.width, o->size.height, o->samples, o->reference, (unsigned)o->seed);
+        find_curve(&s, NORMAL, i, normals);
+        find_curve(&s, m, i, lobes);
+        study_end(&s);
+        progress_step(&line);
+    }
+    progress_end(&line);
+    printf(
+        "\nMean square error of one material a picture, at its own best parameter and at that of the least mean\n\n");
+    printf("%-22s%-40s%s\n", "", "normals, Eq. 4", "lobes");
+    printf("%-22s%11s%9s%11s%9s%11s%9s%11s%9s\n", "", "own best", "variance", "shared", "variance", "own best", "beta",
+           "shared", "beta");
+    for (group = 0; group < GROUPS; group++) {
+        const int best[2] = {best_of_group(normals, group), best_of_group(lobes, group)};
+        double own[2] = {0, 0};
+        for (k = group * SINGLES; k < (group + 1) * SINGLES; k++) {
+            printf("%-22s", materials[k].name);
+            print_errors(NORMAL, normals, group, k);
+            print_errors(group_methods[group], lobes, group, k);
+            printf("\n");
+            own[0] += normals->error[k][best_of(normals, k)] / SINGLES;
+            own[1] += lobes->error[k][best_of(lobes, k)] / SINGLES;
+        }
+        printf("%-22s%11.5f%9s%11.5f%9s%11.5f%9s%11.5f%9s\n",
+               group == 0   ? "mean, Eq. 12"
+               : group == 1 ? "mean, Eq. 11"
+                            : "mean, Eq. 13",
+               own[0], "", mean_of_group(normals, group, best[0]), "", own[1], "", mean_of_group(lobes, group, best[1]),
+               "");
+        if (group == 0) {
+            shared[0] = grid_parameter(&methods[NORMAL], best[0]);
+            shared[1] = grid_parameter(&methods[EQ12], best[1]);
+            printf("%-22s", "all three in one");
+            print_errors(NORMAL, normals, 0, ALL_THREE);
+            print_errors(EQ12, lobes, 0, ALL_THREE);
+            printf("\n");
+        }
+    }
+    printf("\n");
+    write_curve(o, "-normals.csv", "variance", NORMAL, normals,
+                "error of Eq. 4 over its variance (Figs. 10 to 13, left)");
+    write_curve(o, "-lobes.csv", "beta", EQ12, lobes, "error of Eq. 12, 11 and 13 over beta (Figs. 10 to 13, right)");
+    free(normals);
+}
+
+/* ---- the scenes: each filter at its best, and at what was best for three exponents ---- */
+
+enum { SCENES = 5, SHEET_COLUMNS = 5 };
+
+typedef struct {
+    subject what;
+    method shown; /* in the picture, beside those of normals */
+    const char *about;
+} shown_scene;
+
+static const shown_scene scenes[SCENES] = {
+    {{"tiles", scene_gallery, look_tiles, 0}, EQ12, "GGX of alpha .04, .1 and .3; bands on the balls"},
+    {{"models", scene_gallery, look_models, 0}, EQ12, "Phong beside Beckmann"},
+    {{"brushed", scene_gallery, look_brushed, 0}, EQ13, "brushed along x and z by turns, exponents 4000 and 12"},
+    {{"layers", scene_gallery, look_layers, 0}, EQ11, "three lobes each"},
+    {{"spheres", scene_spheres, look_phong, 3}, EQ12, "Phong of exponent 10, 100 and 1000 in bands"}};
+
+static void show_scene(const settings *o, const shown_scene *which, const float shared[2]) {
+    static const method columns[SHEET_COLUMNS - 1] = {UNFILTERED, NORMAL, BANDLIMIT, METHODS};
+    float best[METHODS][2];
+    double error[METHODS], ms[METHODS];
+    progress line = progress_begin(which->what.name, METHODS);
+    char rest[64];
+    image sheet = create(SHEET_COLUMNS * o->size.width, 2 * o->size.height);
+    study s;
+    int m, k;
+    study_begin(&s, &which->what, o->size.width, o->size.height, o->samples, o->reference, (unsigned)o->seed);
+    for (m = 0; m < METHODS; m++) {
+        error[m] = search(&s, (method)m, 2, best[m], &line);
+        for (k = 0; k < SHEET_COLUMNS - 1; k++) {
+            if (m == (int)(columns[k] == METHODS ? which->shown : columns[k]))
+                paste_with_difference(&s.f, &sheet, &s.result, &s.wanted.mean, k);
+        }
+    }
+    image_paste(&sheet, &s.wanted.mean, (SHEET_COLUMNS - 1) * o->size.width, 0);
+    progress_end(&line);
+    time_methods(&s, best, ms);
+    printf("\n%s: %s\n\n%-20s%10s%10s  %-18s%10s%14s%9s\n", which->what.name, which->about, "", "MSE", "best at", "",
+           "at shared", "ms/megapixel", "ns/tap");
+    for (m = 0; m < METHODS; m++) {
+        const method_data *d = &methods[m];
+        const double megapixels = 1e-6 * o->size.width * o->size.height;
+        char second[32] = "", at_shared[32] = "";
+        if (d->parameters > 1) snprintf(second, sizeof second, ", %.3g", (double)best[m][1]);
+        if (d->parameters == 1)
+            snprintf(at_shared, sizeof at_shared, "%.5f", try_filter(&s, (method)m, &shared[m == NORMAL ? 0 : 1]));
+        if (d->parameters > 0)
+            printf("%-20s%10.5f%10.3g%-20s%10s%14.0f%9.2f\n", d->name, error[m], (double)best[m][0], second, at_shared,
+                   ms[m] / megapixels, ms[m] / megapixels / TAPS);
+        else
+            printf("%-20s%10.5f\n", d->name, error[m]);
+    }
+    snprintf(rest, sizeof rest, "-%s.png", which->what.name);
+    write_picture(o->out, rest, &sheet, "noisy, Eq. 4, the same with a bandlimit, with lobes, reference; errors below");
+    image_free(&sheet);
     study_end(&s);
-  }
-  (void)argc;(void)argv; return 0;
+}
+
+/* ---- Fig. 19: the weights of Eq. 13 around a pixel, and by Cardano's formula ---- */
+
+/* The papers' product integral of two ASGs in float: the lowest eigenvalue of the summed quadratic form by Cardano's
+   formula, its vector as the longest cross product of two rows */
+static float product_by_cardano(const asg_lobe *a, const asg_lobe *b) {
+    const vec3 v[4] = {a->x, a->y, b->x, b->y};
+    const float l[4] = {a->sharpness_x, a->sharpness_y, b->sharpness_x, b->sharpness_y};
+    float xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0, mean, p, q, angle, high, middle, low, length = 0;
+    vec3 rows[3], axis = a->z;
+    int k;
+    for (k = 0; k < 4; k++) {
+        xx += l[k] * v[k].x * v[k].x;
+        yy += l[k] * v[k].y * v[k].y;
+        zz += l[k] * v[k].z * v[k].z;
+        xy += l[k] * v[k].x * v[k].y;
+        xz += l[k] * v[k].x * v[k].z;
+        yz += l[k] * v[k].y * v[k].z;
+    }
+    mean = (xx + yy + zz) / 3;
+    rows[0] = lobe_vector(xx - mean, xy, xz);
+    rows[1] = lobe_vector(xy, yy - mean, yz);
+    rows[2] = lobe_vector(xz, yz, zz - mean);
+    p = sqrtf((lobe_dot(rows[0], rows[0]) + lobe_dot(rows[1], rows[1]) + lobe_dot(rows[2], rows[2])) / 6);
+    q = 0.5f * lobe_dot(rows[0], lobe_cross(rows[1], rows[2])) / lobe_max(p * p * p, LOBE_TINY);
+    angle = acosf(lobe_max(-1, lobe_min(1, q))) / 3;
+    high = mean + 2 * p * cosf(angle);
+    low = mean + 2 * p * cosf(angle + 2 * LOBE_PI / 3);
+    middle = 3 * mean - high - low;
+    rows[0].x = xx - low;
+    rows[1].y = yy - low;
+    rows[2].z = zz - low;
+    for (k = 0; k < 3; k++) {
+        const vec3 cross = lobe_cross(rows[k], rows[(k + 1) % 3]);
+        if (lobe_dot(cross, cross) <= length) continue;
+        length = lobe_dot(cross, cross);
+        axis = lobe_scale(cross, 1 / sqrtf(length));
+    }
+    return LOBE_PI * expf(-low) * lobe_max(lobe_dot(axis, a->z) * lobe_dot(axis, b->z), 0) /
+           sqrtf(lobe_max((high - low) * (middle - low), LOBE_TINY));
+}
+
+static float weight_by_cardano(const asg_lobe *a, const asg_lobe *b, float beta) {
+    const float own = product_by_cardano(a, a) * product_by_cardano(b, b);
+    return powf(lobe_min(product_by_cardano(a, b) / sqrtf(lobe_max(own, LOBE_TINY)), 1), beta);
+}
+
+/* White is 1; the PNG's tone curve undone */
+static vec3 as_grey(float weight) {
+    const float c = -logf(1 - 0.999f * lobe_max(lobe_min(weight, 1), 0));
+    return lobe_vector(c, c, c);
+}
+
+static int same_tile(const frame *f, int i, int k) {
+    const surface *a = &f->seen.texels[i].hit, *b = &f->seen.texels[k].hit;
+    return f->guides[i].valid && f->guides[k].valid && a->shape == b->shape &&
+           (a->shape != GALLERY_FLOOR || tile_of(a) == tile_of(b));
+}
+
+static void show_weights(const settings *o) {
+    static const subject what = {"brushed", scene_gallery, look_brushed, 0};
+    const int width = o->size.width, height = o->size.height, target = height * 11 / 20 * width + width / 2;
+    scene world = what.build();
+    image sheet = create(2 * width, height);
+    frame f;
+    float *weights[2], jump[2] = {0, 0};
+    int i, k;
+    world.eye.target = lobe_vector(0, 0, 0.7f); /* closer to the floor */
+    world.eye.field_of_view *= 0.6f;
+    f = frame_of(&world, &what, width, height);
+    for (k = 0; k < 2; k++) weights[k] = (float *)allocate("images", (size_t)(width * height), sizeof(float));
+    for (i = 0; i < width * height; i++) {
+        const asg_lobe a = f.guides[target].stretched, b = f.guides[i].stretched;
+        if (!f.guides[target].valid || !f.guides[i].valid) continue;
+        weights[0][i] = bilateral_asg_weight(a, b, 1);
+        weights[1][i] = weight_by_cardano(&a, &b, 1);
+        for (k = 0; k < 2; k++) {
+            sheet.pixels[i / width * 2 * width + k * width + i % width] = as_grey(weights[k][i]);
+            if (i % width > 0 && same_tile(&f, i, i - 1))
+                jump[k] = lobe_max(jump[k], fabsf(weights[k][i] - weights[k][i - 1]));
+            if (i >= width && same_tile(&f, i, i - width))
+                jump[k] = lobe_max(jump[k], fabsf(weights[k][i] - weights[k][i - width]));
+        }
+    }
+    printf(
+        "\nWeights of a brushed pixel's neighbours, beta 1 (Fig. 19): the largest step between pixels side by side of\n"
+        "one tile or ball is %.3f by Eq. 13, and %.3f with Cardano's formula in float\n\n",
+        (double)jump[0], (double)jump[1]);
+    write_picture(o->out, "-weights.png", &sheet,
+                  "weights around a brushed pixel by Eq. 13, and with Cardano's formula");
+    for (k = 0; k < 2; k++) free(weights[k]);
+    image_free(&sheet);
+    frame_free(&f);
+}
+
+int main(void) {
+    settings o = {{256, 192}, 8, 256, 0, "/tmp/lobe/x", 0, 0, 0, 0, 0, 0, 0};
+    float sh[2] = {.000977f, 8};
+    int i;
+    for (i = 0; i < SCENES; i++) show_scene(&o, &scenes[i], sh);
+    show_weights(&o);
+    compare_materials(&o, sh);
+    return 0;
 }
