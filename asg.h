@@ -293,11 +293,15 @@ LOBE_INLINE lobe_asg_pair lobe_asg_pair_of(asg_lobe a, asg_lobe b) {
     return k;
 }
 
-/* The product integral of lobes of peak 1 as mean, square and exponent, pi mean sqrt(square) exp(exponent): a filter may
-   keep its own lobe's and subtract exponents. Sharpness above 1e9 counts as 1e9. */
-LOBE_INLINE float lobe_asg_pair_integral(lobe_asg_pair k, float *square, float *exponent) {
-    float trace = k.trace, rest = k.m2 - trace, tau, value, slope, bend, d, e2, e3, u, v, g0, g1, g2, g, h, lift, c, ca,
-          cb, whole, cross, area, inverse;
+/* Of the product as a density: tau, and the means of za.w zb.w, (za.w)^2 and (zb.w)^2, which are over root2 pi e^tau /
+   sqrt(scale) that of a Gaussian. */
+typedef struct lobe_asg_means {
+    float tau, ab, aa, bb, scale;
+} lobe_asg_means;
+
+LOBE_INLINE lobe_asg_means lobe_asg_means_of(lobe_asg_pair k) {
+    lobe_asg_means m;
+    float trace = k.trace, rest = k.m2 - trace, tau, value, slope, bend, d, e2, e3, u, v, g0, g1, g2, g, inverse;
     /* tau is near the largest root of 2 P - P', P = det(Q + tau I): one step of Halley's from near the smallest
        eigenvalue's lower bound det / m2, with everything over m2, so that squares do not overflow */
     inverse = 1 / (k.m2 + 1);
@@ -315,34 +319,36 @@ LOBE_INLINE float lobe_asg_pair_integral(lobe_asg_pair k, float *square, float *
     e2 = lobe_at_least(lobe_at_most(2 * e3 * (trace + 3 * tau), 0.333333333f), 0);
     g0 = e3 * (-5.7050055f + 20.2053852f * e2);
     g1 = (0.6530841f + e3 * 24.4494396f) + e2 * (8.625987f - 21.598515f * e2 - e3 * 72.7179849f);
-    g2 = (0.2046798f - e3 * 23.1662322f) + e2 * (-8.492826f + 13.444353f * e2 + e3 * 88.4219490f);
+    g2 = (0.2046798f - e3 * 23.1662322f) + e2 * (-8.492826f + 13.444353f * e2 + e3 * 88.421949f);
     g = 4 * e3 * (g1 + g2);
     u = g2 * e3;
-    h = g0 + (2 * tau * u - g2 * e2);
-    lift = 2 * u;
-    v = tau * (trace + tau) * g + h;
-    u = lift - tau * g;
-    c = v * k.cosine + g * k.adj_ab;
-    ca = v + (u * k.quad_a + g * k.adj_aa);
-    cb = v + (u * k.quad_b + g * k.adj_bb);
-    /* E max(za.w, 0) max(zb.w, 0) by the arc-cosine kernel, without the arc cosine */
-    whole = lobe_at_least(ca * cb, 1e-30f);
-    area = sqrtf(whole);
-    cross = lobe_at_least((area - c) * (area + c), 0);
-    area = whole + fabsf(c) * (1.5707963f * area + 0.4292037f * fabsf(c));
-    u = d - 2 * d * e2;
-    inverse = 1 / (area * u); /* one division for both quotients */
-    c = 0.5f * lobe_at_least(c, 0) + 0.5f / LOBE_PI * (cross * sqrtf(cross)) * (u * inverse);
+    v = tau * (trace + tau) * g + (g0 + (2 * tau * u - g2 * e2));
+    u = 2 * u - tau * g;
+    m.tau = tau;
+    m.ab = v * k.cosine + g * k.adj_ab;
+    m.aa = v + (u * k.quad_a + g * k.adj_aa);
+    m.bb = v + (u * k.quad_b + g * k.adj_bb);
+    m.scale = d - 2 * d * e2;
+    return m;
+}
+
+/* The mean of max(za.w, 0) max(zb.w, 0) by the arc-cosine kernel, without the arc cosine, and what it is to be
+   multiplied by: the product integral of lobes of peak 1 is pi mean sqrt(square) e^tau. */
+LOBE_INLINE float lobe_asg_clamped_mean(lobe_asg_means m, float *square) {
+    float c = m.ab, size = fabsf(c), whole = lobe_at_least(m.aa * m.bb, 1e-30f), area = sqrtf(whole);
+    float cross = lobe_at_least((area - c) * (area + c), 0), inverse;
+    area = whole + size * (1.5707963f * area + 0.4292037f * size);
+    inverse = 1 / (area * m.scale); /* one division for both quotients */
     *square = area * inverse;
-    *exponent = tau;
-    return lobe_at_most(c, 2);
+    return lobe_at_most(0.5f * lobe_at_least(c, 0) + 0.5f / LOBE_PI * (cross * sqrtf(cross)) * (m.scale * inverse), 2);
 }
 
 /* The same as factor and exponent, with the amplitudes. */
 LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
-    float square, mean = lobe_asg_pair_integral(lobe_asg_pair_of(a, b), &square, exponent);
+    lobe_asg_means m = lobe_asg_means_of(lobe_asg_pair_of(a, b));
+    float square, mean = lobe_asg_clamped_mean(m, &square);
     LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && b.sharpness_x >= 0 && b.sharpness_y >= 0);
-    *exponent += a.log_amplitude + b.log_amplitude;
+    *exponent = (a.log_amplitude + b.log_amplitude) + m.tau;
     return LOBE_PI * mean * sqrtf(square);
 }
 

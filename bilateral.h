@@ -5,46 +5,53 @@
 
    lobe_vec3 normal = {0, 0, 1}, viewer = {0, 0.8f, 0.6f};
    sg_lobe here = sg_ggx_lobe(normal, viewer, 0.1f), there = sg_ggx_lobe(normal, viewer, 0.2f);
-   float similar = bilateral_sg_weight(here, there, 20);               // in [0, 1], 1 for equal lobes
+   float similar = bilateral_sg_weight(here, there, 20);            // in [0, 1], 1 for equal lobes
    bilateral_sg i = bilateral_sg_prepare(here, 20), j = bilateral_sg_prepare(there, 20); // once for each pixel
-   float tap = bilateral_sg_tap(-1.5f, i, j, 20);                      // the same times 2^-1.5, one exponential
+   float tap = bilateral_sg_tap(-1.5f, i, j, 20);                   // similar times 2^-1.5, by one exponential
 
  Configuration: as sg.h, which asg.h includes, which this includes.
 
- Conventions: a weight is in [0, 1], and 1 for equal pixels. beta, any positive number, sets how much difference is
- allowed: weights are q^beta of a similarity q; bounds hold for beta in [1e-3, 1e3]. A variance is that of a Gaussian
- exp(-|a - b|^2 / (2 variance)). The paper's smoothing kernel kappa is sg_convolve(lobe, kappa) or asg_convolve(lobe,
- kappa) before anything here; infinity smooths nothing. An exponent is one of base 2: the logarithm of all that a tap's
- weight has beside its lobes, so that a tap needs one exponential.
+ Conventions: a weight is in [0, 1], and exactly 1 for equal pixels, the same either way round. Weights of lobes are
+ q^beta of a similarity q, the product of two normalised distributions, for any beta above 0; bounds hold for beta in
+ [1e-3, 1e3]. A variance is that of exp(-|a - b|^2 / (2 variance)). An "exponent" is one of base 2, at most 0: the
+ logarithm of all that a tap's weight has beside its lobes. The paper's smoothing kernel kappa is sg_convolve(lobe,
+ kappa) or asg_convolve(lobe, kappa) before anything here; a kappa of 1e30 or infinity smooths nothing.
 
- A filter: prepare each pixel's lobe into planes, arrays of one number each; scale the plane of depths by
- bilateral_scale(variance); then for each tap and each pixel of a row
+ A filter: prepare each pixel's lobe into planes, arrays of one number each, one for each field in the order of the
+ struct's. Scale the plane of depths by bilateral_scale(variance). Then for each tap and each pixel of a row
 
    exponent = log2(kernel) + bilateral_depth_exponent(depth_i, depth_j)
    weight = bilateral_sg_tap(exponent, lobe_i, lobe_j, beta)
 
- and sum weight and weight times colour; the quotient is the filtered colour. Such a loop becomes vector code, see sg.h.
- Where the total weight over that of the kernel is below a threshold (the paper's 0.25), recompute the pixel. All weights
- are symmetric: each may be used for both pixels, which bilateral_pairs_add does.
+ and sum weight and weight times colour; their quotient is the filtered colour. Such a loop becomes vector code, see
+ sg.h. The functions called _taps do a row in stages, which is faster where a weight is long. As weights are
+ symmetric, half of the taps will do: bilateral_pairs_add uses each weight for both pixels.
+ Recompute a pixel where its total weight, over that of the kernel alone, is small: below 0.25 in the paper.
+ Upsampling and reprojection: bilateral_footprint, the taps' similarities (times 0 for a sample that is not valid),
+ bilateral_footprint_weights, whose total tells the same.
+
+ Errors: as in sg.h. "similarity" is in (1 + e + beta + sqrt(l e) + 2^-24 l) 2^-24 of the weight for e = -ln of it and l =
+ beta times the smaller sharpness: what rounding of the logarithm and of unit vectors costs.
+ Out of finite input (unit vectors, sharpness of any size, depths and guides up to 1e18) comes no NaN and no infinity.
 
  Functions:
 
    bilateral_depth_weight           Eq. 3
-   bilateral_normal_weight          Eq. 4, the usual filter, which knows no lobes
-   bilateral_gaussian_weight        section 3: guides with a variance of their own
+   bilateral_normal_weight          Eq. 4: what a filter does that knows no lobes
+   bilateral_gaussian_weight        section 3: guides that have a variance each
    bilateral_sg_weight              Eq. 12: a lobe each
    bilateral_sg_mixture_weight      Eq. 11: several lobes each
    bilateral_asg_weight             Eq. 13: an anisotropic lobe each
    bilateral_merge                  several lobes as one, for Eq. 12
-   bilateral_scale                  what planes of depths, normals and other guides are multiplied by
+   bilateral_scale                  what planes of depths and normals are multiplied by
    bilateral_depth_exponent         of scaled depths
    bilateral_normal_tap             of scaled normals
-   bilateral_sg_prepare, _tap, _tap_power
-   bilateral_asg_prepare, _tap
-   bilateral_sg_mixture_prepare, _pair, _tap
-   bilateral_pairs_add              both pixels of each pair of a row
-   bilateral_footprint              2 x 2 taps around a position: upsampling, reprojection
-   bilateral_footprint_weights      the same with the taps' similarities
+   bilateral_sg_prepare, _tap       Eq. 12; _tap_power for an even beta; _taps
+   bilateral_sg_mixture_prepare     Eq. 11; _pair of lobes, _tap, _taps
+   bilateral_asg_prepare, _tap      Eq. 13; _taps
+   bilateral_pairs_add              a row of weights, each for both pixels
+   bilateral_footprint              2 x 2 taps around a position
+   bilateral_footprint_weights      the same times similarities, normalised; their total
    bilateral_history_share          of a reprojected sample beside a new one
 
  Papers named in the sources: 004 is Tokuyoshi 2015, Specular Lobe-Aware Filtering and Upsampling for Interactive
@@ -54,10 +61,6 @@
 #define LOBE_BILATERAL_H
 
 #include "asg.h"
-
-#ifdef __clang__ /* as in asg.h */
-#pragma clang attribute push(__attribute__((always_inline)), apply_to = function)
-#endif
 
 /* ---- types ---- */
 
@@ -84,7 +87,7 @@ typedef struct bilateral_asg {
 /* ---- private helpers ---- */
 
 /* log2 x for x from 2^-126, which counts as at most 1: then 0.   [bound lobe_bilateral_log2 abs 4e-7] */
-LOBE_API float lobe_bilateral_log2(float x) {
+LOBE_INLINE float lobe_bilateral_log2(float x) {
     int bits, power;
     float f, f2, slope;
     x = lobe_at_most(x, 1);
@@ -100,14 +103,14 @@ LOBE_API float lobe_bilateral_log2(float x) {
 }
 
 /* x^n for n in 0 .. 15 */
-LOBE_API float lobe_bilateral_power(float x, int n) {
+LOBE_INLINE float lobe_bilateral_power(float x, int n) {
     float x2 = x * x, x4 = x2 * x2, x8 = x4 * x4;
     return (n & 1 ? x : 1) * (n & 2 ? x2 : 1) * ((n & 4 ? x4 : 1) * (n & 8 ? x8 : 1));
 }
 
 /* The overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj), so much too large that it is at least 1 for equal
    ones. */
-LOBE_API float lobe_bilateral_overlap(float ti, float tj, float inverse) {
+LOBE_INLINE float lobe_bilateral_overlap(float ti, float tj, float inverse) {
     return 4.00000191f * (ti * inverse) * (tj * inverse);
 }
 
@@ -115,24 +118,56 @@ LOBE_API float lobe_bilateral_width(float sharpness) {
     return 1 / lobe_at_most(lobe_at_least(sharpness, 1e-15f), 1e18f);
 }
 
-LOBE_API float lobe_bilateral_squared(lobe_vec3 a, lobe_vec3 b) {
+LOBE_INLINE float lobe_bilateral_squared(lobe_vec3 a, lobe_vec3 b) {
     lobe_vec3 d = lobe_sub(a, b);
     return lobe_dot(d, d);
 }
 
 /* ---- weights of two pixels ---- */
 
+/*
+ bilateral_depth_weight - similarity of two depths
+
+   variance   (0, 1e30], counts as at least 1e-30
+   returns    exp(-(zi - zj)^2 / (2 variance))
+
+   Rounding: <= 6 (1 + |ln w|) 2^-24 relative   [bound bilateral_depth_weight conditioned 6 over 1e-6 1e6]
+   Model:    exact
+   Source:   004, Eq. 3
+*/
 LOBE_API float bilateral_depth_weight(float zi, float zj, float variance) {
     float d = (zi - zj) / sqrtf(lobe_at_least(variance, LOBE_TINY));
     LOBE_ASSERT(variance > 0);
     return lobe_exp(-0.5f * lobe_at_most(d * d, LOBE_HUGE));
 }
 
+/*
+ bilateral_normal_weight - similarity of two normals: an SG of sharpness 1 / variance
+
+   variance   (0, 1e30], counts as at least 1e-30
+   returns    exp(-|ni - nj|^2 / (2 variance))
+
+   Rounding: <= 8 (1 + |ln w|) 2^-24 relative   [bound bilateral_normal_weight conditioned 8 over 1e-10 1e6]
+   Model:    exact
+   Source:   004, Eq. 4
+*/
 LOBE_API float bilateral_normal_weight(lobe_vec3 ni, lobe_vec3 nj, float variance) {
     LOBE_ASSERT(variance > 0);
     return lobe_exp(-0.5f * lobe_chord_squared(ni, nj) / lobe_at_least(variance, LOBE_TINY));
 }
 
+/*
+ bilateral_gaussian_weight - similarity of two guides that have a mean and a variance each
+
+   mi, mj     up to 1e18
+   vi, vj     [0, 1e30], count as within [1e-18, 1e15]
+   returns    q^beta, q the integral of the product of both Gaussians over the root of those of their squares
+
+   Rounding: <= 12 similarity, with no l   [bound bilateral_gaussian_weight similarity 12 over 1e-6 1e6]
+   Model:    exact
+   Source:   004, Eqs. 7 and 8 for plane Gaussians: (4 vi vj / (vi + vj)^2)^(beta / 4) exp(-beta (mi - mj)^2 / (2 (vi +
+             vj)))
+*/
 LOBE_API float bilateral_gaussian_weight(float mi, float vi, float mj, float vj, float beta) {
     float ti = lobe_at_most(lobe_at_least(vi, 1e-18f), 1e15f), tj = lobe_at_most(lobe_at_least(vj, 1e-18f), 1e15f);
     float inverse = 1 / (ti + tj), d = mi - mj;
@@ -141,6 +176,18 @@ LOBE_API float bilateral_gaussian_weight(float mi, float vi, float mj, float vj,
                              0.5f * LOBE_LOG2E * lobe_at_most(d * d, 1e15f) * inverse));
 }
 
+/*
+ bilateral_sg_weight - similarity of two SGs
+
+   i, j       sharpness [0, 1e30], counts as within [1e-15, 1e18]; amplitudes do not matter
+   returns    q^beta
+
+   Rounding: <= 12 similarity   [bound bilateral_sg_weight similarity 12 over 1e-8 1e10]
+   Model:    against bilateral_sg_mixture_weight of one lobe each: within .02 for beta 20 and a sharpness of 10 or more of
+             both, .002 from 100 on   [bound bilateral_sg_weight model .02 over 10 1e5]
+             [bound bilateral_sg_weight sharp .002 over 100 1e6]
+   Source:   004, Eq. 12: (4 li lj / (li + lj)^2)^(beta / 2) times an SG of sharpness beta li lj / (li + lj)
+*/
 LOBE_API float bilateral_sg_weight(sg_lobe i, sg_lobe j, float beta) {
     float ti = lobe_bilateral_width(i.sharpness), tj = lobe_bilateral_width(j.sharpness), inverse = 1 / (ti + tj);
     LOBE_ASSERT(i.sharpness >= 0 && j.sharpness >= 0 && beta > 0);
@@ -174,6 +221,17 @@ LOBE_API float lobe_bilateral_top(const sg_lobe *lobes, int count) {
     return top;
 }
 
+/*
+ bilateral_sg_mixture_weight - similarity of two sums of SGs
+
+   i, j       ni and nj lobes, 1 or more; sharpness [0, 1e30]; amplitudes matter among the lobes of one pixel, those below
+              e^-60 of its largest do not
+   returns    q^beta
+
+   Rounding: <= 40 similarity, with no l   [bound bilateral_sg_mixture_weight similarity 40 over 1e-3 1e5]
+   Model:    exact
+   Source:   004, Eq. 11, of logarithms, the sums over their largest term
+*/
 LOBE_API float bilateral_sg_mixture_weight(const sg_lobe *i, int ni, const sg_lobe *j, int nj, float beta) {
     float log_product[3], top_i = lobe_bilateral_top(i, ni), top_j = lobe_bilateral_top(j, nj);
     int k;
@@ -187,20 +245,56 @@ LOBE_API float bilateral_sg_mixture_weight(const sg_lobe *i, int ni, const sg_lo
 
 /* ---- prepared forms ---- */
 
+/*
+ bilateral_scale - what guides are multiplied by, so that minus the squared distance is the exponent of their weight
+
+   variance   (0, 1e30], counts as at least 1e-30
+
+   Rounding: <= 3 ulp   [bound bilateral_scale ulp 3 over 1e-20 1e20]
+   Model:    exact
+   Source:   sqrt(log2(e) / (2 variance))
+*/
 LOBE_API float bilateral_scale(float variance) {
     LOBE_ASSERT(variance > 0);
     return sqrtf(0.5f * LOBE_LOG2E / lobe_at_least(variance, LOBE_TINY));
 }
 
-LOBE_API float bilateral_depth_exponent(float zi, float zj) {
+/*
+ bilateral_depth_exponent - logarithm of Eq. 3
+
+   zi, zj     depths times bilateral_scale(variance), up to 1e18
+
+   Rounding: <= 3 ulp of the difference's square   [bound bilateral_depth_exponent ulp 3]
+   Model:    exact
+   Source:   004, Eq. 3
+*/
+LOBE_INLINE float bilateral_depth_exponent(float zi, float zj) {
     float d = zi - zj;
     return -(d * d);
 }
 
+/*
+ bilateral_normal_tap - a tap's weight with Eq. 4
+
+   exponent   at most 0
+   ni, nj     normals times bilateral_scale(variance)
+   returns    bilateral_normal_weight times 2^exponent
+
+   Rounding: <= 9 similarity, with beta 1 and l = 1 / variance   [bound bilateral_normal_tap similarity 9 over 1e-8 1e6]
+   Model:    exact
+   Source:   004, Eq. 4
+*/
 LOBE_INLINE float bilateral_normal_tap(float exponent, lobe_vec3 ni, lobe_vec3 nj) {
     return lobe_exp2(exponent - lobe_bilateral_squared(ni, nj));
 }
 
+/*
+ bilateral_sg_prepare - a lobe for bilateral_sg_tap and bilateral_sg_tap_power with this beta
+
+   Rounding: with that of the taps
+   Model:    exact
+   Source:   004, Eq. 12
+*/
 LOBE_API bilateral_sg bilateral_sg_prepare(sg_lobe g, float beta) {
     bilateral_sg p;
     p.axis = lobe_scale(g.axis, bilateral_scale(1 / beta));
@@ -209,10 +303,30 @@ LOBE_API bilateral_sg bilateral_sg_prepare(sg_lobe g, float beta) {
     return p;
 }
 
-LOBE_INLINE float bilateral_sg_tap(float exponent, bilateral_sg i, bilateral_sg j, float beta) {
+/* Exponent of Eq. 12. */
+LOBE_INLINE float lobe_bilateral_sg_exponent(bilateral_sg i, bilateral_sg j, float beta) {
     float inverse = 1 / (i.width + j.width);
-    return lobe_exp2(exponent + 0.5f * beta * lobe_bilateral_log2(lobe_bilateral_overlap(i.width, j.width, inverse)) -
-                     lobe_bilateral_squared(i.axis, j.axis) * inverse);
+    return 0.5f * beta * lobe_bilateral_log2(lobe_bilateral_overlap(i.width, j.width, inverse)) -
+           lobe_bilateral_squared(i.axis, j.axis) * inverse;
+}
+
+/*
+ bilateral_sg_tap, bilateral_sg_tap_power, bilateral_sg_taps - a tap's weight with Eq. 12
+
+   exponent   at most 0
+   i, j       prepared with the same beta; for _taps four planes each, from the row's first pixel on
+   half_beta  1 to 15, beta / 2: without a logarithm; a constant is best
+   weight     count exponents, which become weights
+   returns    bilateral_sg_weight times 2^exponent
+
+   Rounding: <= 12 similarity, of _tap_power 3 beta 2^-24 of the largest weight besides
+             [bound bilateral_sg_tap similarity 12 over 1e-8 1e10] [bound bilateral_sg_taps similarity 12 over 1e-8 1e10]
+             [bound bilateral_sg_tap_power similarity 12 over 1e-8 1e10]
+   Model:    as bilateral_sg_weight
+   Source:   004, Eq. 12, with widths 1 / li, so that only their sum is divided by
+*/
+LOBE_INLINE float bilateral_sg_tap(float exponent, bilateral_sg i, bilateral_sg j, float beta) {
+    return lobe_exp2(exponent + lobe_bilateral_sg_exponent(i, j, beta));
 }
 
 LOBE_INLINE float bilateral_sg_tap_power(float exponent, bilateral_sg i, bilateral_sg j, int half_beta) {
@@ -221,7 +335,31 @@ LOBE_INLINE float bilateral_sg_tap_power(float exponent, bilateral_sg i, bilater
            lobe_exp2(exponent - lobe_bilateral_squared(i.axis, j.axis) * inverse);
 }
 
-/* What a product of two parts is made of: exponent and factor, and the product of tails. */
+/* How many pixels go through the stages of a row at once: what the stages leave stays in the first cache. */
+enum { LOBE_BILATERAL_BLOCK = 128 };
+
+LOBE_INLINE bilateral_sg lobe_bilateral_sg_at(const float *const *planes, int x) {
+    bilateral_sg p;
+    p.axis = lobe_vector(planes[0][x], planes[1][x], planes[2][x]);
+    p.width = planes[3][x];
+    return p;
+}
+
+LOBE_API void bilateral_sg_taps(int count, const float *const *i, const float *const *j, float beta, float *weight) {
+    float stage[LOBE_BILATERAL_BLOCK];
+    int from, x;
+    for (from = 0; from < count; from += LOBE_BILATERAL_BLOCK) {
+        int n = count - from < LOBE_BILATERAL_BLOCK ? count - from : LOBE_BILATERAL_BLOCK;
+        for (x = 0; x < n; x++) {
+            stage[x] =
+                lobe_bilateral_sg_exponent(lobe_bilateral_sg_at(i, from + x), lobe_bilateral_sg_at(j, from + x), beta);
+        }
+        for (x = 0; x < n; x++) weight[from + x] = lobe_exp2(weight[from + x] + stage[x]);
+    }
+}
+
+/* What the product of two lobes integrates to, with L = |la a + lb b| and all lengths times log2(e): 2^-exponent times
+   factor, a constant over L, less e^-2L of that, where 2^exponent times tail is that again. */
 typedef struct lobe_bilateral_pair {
     float exponent, factor, tail;
 } lobe_bilateral_pair;
@@ -229,7 +367,7 @@ typedef struct lobe_bilateral_pair {
 LOBE_INLINE lobe_bilateral_pair lobe_bilateral_pair_of(bilateral_sg_part a, bilateral_sg_part b) {
     lobe_bilateral_pair p;
     float sum = a.sharpness + b.sharpness, squared = sum * sum;
-    float lost = lobe_at_most(a.sharpness * b.sharpness * lobe_bilateral_squared(a.axis, b.axis), 0.99999f * squared);
+    float lost = a.sharpness * b.sharpness * lobe_bilateral_squared(a.axis, b.axis);
     float size = sqrtf(squared - lost), both = size + sum, inverse = 1 / (size * both);
     p.exponent = lost * (inverse * size);
     p.factor = a.amplitude * b.amplitude * (both * inverse);
@@ -237,33 +375,69 @@ LOBE_INLINE lobe_bilateral_pair lobe_bilateral_pair_of(bilateral_sg_part a, bila
     return p;
 }
 
-LOBE_INLINE float lobe_bilateral_pair_value(lobe_bilateral_pair p) {
-    float x = lobe_at_most(p.exponent, 125), power, inverse, r, r2, even, odd;
-    int k = (int)(127.5f - x);
-    unsigned u = (unsigned)k << 23;
+/* 2^-x = power * (even + odd) for x in [0, 125], 2^x = inverse * (even - odd), to 1e-7 */
+typedef struct lobe_bilateral_exp2 {
+    float power, inverse, even, odd;
+} lobe_bilateral_exp2;
+
+LOBE_INLINE lobe_bilateral_exp2 lobe_bilateral_exp2_of(float x) {
+    lobe_bilateral_exp2 e;
+    float r, r2;
+    int k;
+    unsigned u;
+    x = lobe_at_most(x, 125);
+    k = (int)(127.5f - x);
     r = (127 - (float)k) - x;
-    memcpy(&power, &u, sizeof power);
+    u = (unsigned)k << 23;
+    memcpy(&e.power, &u, sizeof u);
     u = 0x7F000000u - u;
-    memcpy(&inverse, &u, sizeof inverse);
+    memcpy(&e.inverse, &u, sizeof u);
     r2 = r * r;
-    even = 1 + r2 * (0.240222346f + r2 * 0.0096718776f);
-    odd = r * (0.693147215f + r2 * (0.0555030847f + r2 * 0.00134072204f));
-    return p.factor * (power * (even + odd) - p.tail * (inverse * (even - odd)));
+    e.even = 1 + r2 * (0.240222346f + r2 * 0.0096718776f);
+    e.odd = r * (0.693147215f + r2 * (0.0555030847f + r2 * 0.00134072204f));
+    return e;
 }
 
+LOBE_INLINE float lobe_bilateral_pair_value(lobe_bilateral_pair p) {
+    lobe_bilateral_exp2 e = lobe_bilateral_exp2_of(p.exponent);
+    return p.factor * (e.power * (e.even + e.odd) - p.tail * (e.inverse * (e.even - e.odd)));
+}
+
+/*
+ bilateral_sg_pair - integral of the product of one lobe of a pixel and one of another, in the unit of their mixtures
+
+   returns    what the sum over all pairs of lobes is q, but for 2e-6
+
+   Rounding: as bilateral_sg_mixture_tap
+   Model:    as bilateral_sg_mixture_tap
+   Source:   004, Eq. 11
+*/
 LOBE_INLINE float bilateral_sg_pair(bilateral_sg_part a, bilateral_sg_part b) {
     return lobe_bilateral_pair_value(lobe_bilateral_pair_of(a, b));
 }
 
+/*
+ bilateral_sg_mixture_prepare - the lobes of a pixel for bilateral_sg_pair and bilateral_sg_mixture_taps
+
+   lobes      1 or more; sharpness [0, 1e30], counts as within [1/64, 1e18]
+   parts      as many
+
+   Rounding: with that of the taps
+   Model:    as bilateral_sg_mixture_tap
+   Source:   004, Eq. 11: amplitudes are divided by the root of the mixture's product with itself, by the same code as
+             the taps'
+*/
 LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bilateral_sg_part *parts) {
     float top = lobe_bilateral_top(lobes, count), own = 0, scale;
     int l, m;
     LOBE_ASSERT(count > 0);
     for (l = 0; l < count; l++) {
-        parts[l].axis = lobes[l].axis;
+        parts[l].axis =
+            lobe_scale(lobe_normalize_or(lobes[l].axis, lobe_vector(0, 0, 1)), 0.9999995f); /* so that L is not 0 */
         parts[l].sharpness = LOBE_LOG2E * lobe_at_most(lobe_at_least(lobes[l].sharpness, 0.015625f), 1e18f);
         parts[l].amplitude = lobe_exp(lobes[l].log_amplitude - top);
-        parts[l].tail = lobe_select(lobes[l].sharpness < 16, lobe_exp(-2 * lobes[l].sharpness), 0);
+        parts[l].tail =
+            lobe_select(lobes[l].sharpness < 16, lobe_exp(-2 * lobe_at_least(lobes[l].sharpness, 0.015625f)), 0);
     }
     for (l = 0; l < count; l++) {
         for (m = 0; m < count; m++) own += bilateral_sg_pair(parts[l], parts[m]);
@@ -272,11 +446,27 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
     for (l = 0; l < count; l++) parts[l].amplitude *= scale;
 }
 
-LOBE_INLINE float bilateral_sg_mixture_tap(float exponent, float product, float beta) {
-    return lobe_exp2(exponent + beta * lobe_bilateral_log2(product));
-}
+/*
+ bilateral_sg_mixture_tap, bilateral_sg_mixture_taps - a tap's weight with Eq. 11
 
-enum { LOBE_BILATERAL_BLOCK = 64 };
+   exponent   at most 0
+   product    sum of bilateral_sg_pair over all pairs of lobes, counts as within [1e-30, 1]
+   lobes      as many for each pixel, 1 to 32; six planes each, from the row's first pixel on, lobe by lobe
+   weight     count exponents, which become weights
+   returns    bilateral_sg_mixture_weight times 2^exponent
+
+   Rounding: of q <= 100 similarity, with l the largest sharpness
+             [bound bilateral_sg_mixture_tap similarity 100 over .015625 1e6]
+             [bound bilateral_sg_mixture_taps similarity 100 over .015625 1e6]
+             Of opposed equal lobes of sharpness below 1, whose L is nearly 0, within .01
+             [bound bilateral_sg_mixture_tap opposed .01 over .015625 1]
+   Model:    exact, but for lobes of sharpness below 1/64: q within .015   [bound bilateral_sg_mixture_tap wide .015]
+   Source:   004, Eq. 11, with exp(-L) sinh L as a difference of exponentials, the second from the first's polynomial. Where
+             one of two lobes is of sharpness 16 or more, it is 0.
+*/
+LOBE_INLINE float bilateral_sg_mixture_tap(float exponent, float product, float beta) {
+    return lobe_exp2(exponent + beta * lobe_bilateral_log2(lobe_at_least(product, LOBE_TINY)));
+}
 
 LOBE_INLINE bilateral_sg_part lobe_bilateral_part(const float *const *planes, int x) {
     bilateral_sg_part p;
@@ -287,37 +477,62 @@ LOBE_INLINE bilateral_sg_part lobe_bilateral_part(const float *const *planes, in
     return p;
 }
 
+/* Which of the lobes have a tail anywhere in a row, as bits. */
+LOBE_API unsigned lobe_bilateral_tails(int count, int lobes, const float *const *planes, int from) {
+    unsigned tails = 0;
+    int l, x;
+    for (l = 0; l < lobes; l++) {
+        const float *plane = planes[6 * l + 5] + from;
+        unsigned any = 0;
+        for (x = 0; x < count; x++) {
+            unsigned bits;
+            memcpy(&bits, plane + x, sizeof bits);
+            any |= bits;
+        }
+        tails |= (unsigned)(any != 0) << l;
+    }
+    return tails;
+}
+
 LOBE_API void bilateral_sg_mixture_taps(int count, int lobes, const float *const *i, const float *const *j, float beta,
                                         float *weight) {
-    float product[LOBE_BILATERAL_BLOCK], exponent[LOBE_BILATERAL_BLOCK], factor[LOBE_BILATERAL_BLOCK],
-        tail[LOBE_BILATERAL_BLOCK];
+    float stage[4][LOBE_BILATERAL_BLOCK];
     int from, x, l, m;
     for (from = 0; from < count; from += LOBE_BILATERAL_BLOCK) {
         int n = count - from < LOBE_BILATERAL_BLOCK ? count - from : LOBE_BILATERAL_BLOCK;
-        for (x = 0; x < n; x++) product[x] = 0;
+        unsigned tails_i = lobe_bilateral_tails(n, lobes, i, from), tails_j = lobe_bilateral_tails(n, lobes, j, from);
+        for (x = 0; x < n; x++) stage[0][x] = 0;
         for (l = 0; l < lobes; l++) {
             for (m = 0; m < lobes; m++) {
                 for (x = 0; x < n; x++) {
                     lobe_bilateral_pair p = lobe_bilateral_pair_of(lobe_bilateral_part(i + 6 * l, from + x),
                                                                    lobe_bilateral_part(j + 6 * m, from + x));
-                    exponent[x] = p.exponent;
-                    factor[x] = p.factor;
-                    tail[x] = p.tail;
+                    stage[1][x] = p.exponent;
+                    stage[2][x] = p.factor;
                 }
-                for (x = 0; x < n; x++) {
-                    lobe_bilateral_pair p;
-                    p.exponent = exponent[x];
-                    p.factor = factor[x];
-                    p.tail = tail[x];
-                    product[x] += lobe_bilateral_pair_value(p);
+                if (tails_i >> l & tails_j >> m & 1) {
+                    const float *tail_i = i[6 * l + 5] + from, *tail_j = j[6 * m + 5] + from;
+                    for (x = 0; x < n; x++) {
+                        lobe_bilateral_pair p;
+                        p.exponent = stage[1][x];
+                        p.factor = stage[2][x];
+                        p.tail = tail_i[x] * tail_j[x];
+                        stage[0][x] += lobe_bilateral_pair_value(p);
+                    }
+                } else {
+                    for (x = 0; x < n; x++) {
+                        lobe_bilateral_exp2 e = lobe_bilateral_exp2_of(stage[1][x]);
+                        stage[0][x] += stage[2][x] * (e.power * (e.even + e.odd));
+                    }
                 }
             }
         }
-        for (x = 0; x < n; x++) weight[from + x] = bilateral_sg_mixture_tap(weight[from + x], product[x], beta);
+        for (x = 0; x < n; x++) stage[0][x] = beta * lobe_bilateral_log2(lobe_at_least(stage[0][x], LOBE_TINY));
+        for (x = 0; x < n; x++) weight[from + x] = lobe_exp2(weight[from + x] + stage[0][x]);
     }
 }
 
-LOBE_API asg_lobe lobe_bilateral_asg(bilateral_asg p) {
+LOBE_INLINE asg_lobe lobe_bilateral_asg(bilateral_asg p) {
     asg_lobe a;
     a.x = p.x;
     a.y = p.y;
@@ -340,29 +555,51 @@ LOBE_INLINE bilateral_asg lobe_bilateral_asg_at(const float *const *planes, int 
     return a;
 }
 
+/*
+ bilateral_asg_prepare - a lobe for bilateral_asg_tap, any beta
+
+   a          sharpness [0, 1e30], counts as at most 1e9; its amplitude does not matter
+
+   Rounding: with that of the taps
+   Model:    as bilateral_asg_weight
+   Source:   004, Eq. 13: the product with itself, by the same code as the taps'
+*/
 LOBE_API bilateral_asg bilateral_asg_prepare(asg_lobe a) {
     bilateral_asg p;
-    float square, mean = lobe_asg_pair_integral(lobe_asg_pair_of(a, a), &square, &p.own_exponent);
+    lobe_asg_means m = lobe_asg_means_of(lobe_asg_pair_of(a, a));
+    float square, mean = lobe_asg_clamped_mean(m, &square);
     p.x = a.x;
     p.y = a.y;
     p.z = a.z;
     p.sharpness_x = a.sharpness_x;
     p.sharpness_y = a.sharpness_y;
-    p.own_scale = 1.0000005f / (mean * sqrtf(square));
-    p.own_exponent *= 0.5f;
+    p.own_scale = 1.000001f / (mean * mean * square);
+    p.own_exponent = 0.5f * m.tau;
     return p;
 }
 
+/*
+ bilateral_asg_tap, bilateral_asg_taps - a tap's weight with Eq. 13
+
+   exponent   at most 0
+   i, j       for _taps thirteen planes each, from the row's first pixel on
+   weight     count exponents, which become weights
+   returns    bilateral_asg_weight times 2^exponent
+
+   Rounding: of q, 2e-6 relative between them   [bound bilateral_asg_taps rel 2e-6 over 1e-2 1e6]
+   Model:    as bilateral_asg_weight
+   Source:   004, Eq. 13
+*/
 LOBE_INLINE float bilateral_asg_tap(float exponent, bilateral_asg i, bilateral_asg j, float beta) {
-    float square, tau,
-        mean = lobe_asg_pair_integral(lobe_asg_pair_of(lobe_bilateral_asg(i), lobe_bilateral_asg(j)), &square, &tau);
+    lobe_asg_means m = lobe_asg_means_of(lobe_asg_pair_of(lobe_bilateral_asg(i), lobe_bilateral_asg(j)));
+    float square, mean = lobe_asg_clamped_mean(m, &square);
     float ratio = mean * mean * square * (i.own_scale * j.own_scale);
-    float similar = 0.34657359f * lobe_bilateral_log2(ratio) + (tau - (i.own_exponent + j.own_exponent));
+    float similar = 0.5f * lobe_bilateral_log2(ratio) + (m.tau - (i.own_exponent + j.own_exponent));
     return lobe_exp2(exponent - LOBE_LOG2E * beta * lobe_at_least(-similar, 0));
 }
 
 LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *const *j, float beta, float *weight) {
-    float stage[11][LOBE_BILATERAL_BLOCK], mean[LOBE_BILATERAL_BLOCK];
+    float stage[11][LOBE_BILATERAL_BLOCK];
     int from, x;
     for (from = 0; from < count; from += LOBE_BILATERAL_BLOCK) {
         int n = count - from < LOBE_BILATERAL_BLOCK ? count - from : LOBE_BILATERAL_BLOCK;
@@ -383,7 +620,7 @@ LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *
         }
         for (x = 0; x < n; x++) {
             lobe_asg_pair k;
-            float square, tau, m;
+            lobe_asg_means m;
             k.trace = stage[0][x];
             k.m2 = stage[1][x];
             k.det = stage[2][x];
@@ -393,17 +630,42 @@ LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *
             k.adj_bb = stage[6][x];
             k.adj_ab = stage[7][x];
             k.cosine = stage[8][x];
-            m = lobe_asg_pair_integral(k, &square, &tau);
-            mean[x] = m * m * square * stage[9][x];
-            stage[10][x] = tau - stage[10][x];
+            m = lobe_asg_means_of(k);
+            stage[0][x] = m.ab;
+            stage[1][x] = m.aa;
+            stage[2][x] = m.bb;
+            stage[3][x] = m.scale;
+            stage[10][x] = m.tau - stage[10][x];
         }
         for (x = 0; x < n; x++) {
-            float similar = 0.34657359f * lobe_bilateral_log2(mean[x]) + stage[10][x];
+            lobe_asg_means m;
+            float square, mean;
+            m.tau = 0;
+            m.ab = stage[0][x];
+            m.aa = stage[1][x];
+            m.bb = stage[2][x];
+            m.scale = stage[3][x];
+            mean = lobe_asg_clamped_mean(m, &square);
+            stage[9][x] *= mean * mean * square;
+        }
+        for (x = 0; x < n; x++) {
+            float similar = 0.5f * lobe_bilateral_log2(stage[9][x]) + stage[10][x];
             weight[from + x] = lobe_exp2(weight[from + x] - LOBE_LOG2E * beta * lobe_at_least(-similar, 0));
         }
     }
 }
 
+/*
+ bilateral_asg_weight - similarity of two ASGs
+
+   i, j       sharpness [0, 1e30], counts as at most 1e9; amplitudes do not matter
+   returns    q^beta; q counts as at least 2^-63 times its exponential
+
+   Rounding: q the same either way round within 4e-6, and falls without steps above 2e-6 as lobes turn
+             [bound bilateral_asg_weight symmetric 4e-6] [bound bilateral_asg_weight monotone 2e-6]
+   Model:    that of asg_product_integral: q within .0125   [bound bilateral_asg_weight model .0125 over .1 1e5]
+   Source:   004, Eq. 13
+*/
 LOBE_API float bilateral_asg_weight(asg_lobe i, asg_lobe j, float beta) {
     LOBE_ASSERT(i.sharpness_x >= 0 && i.sharpness_y >= 0 && j.sharpness_x >= 0 && j.sharpness_y >= 0 && beta > 0);
     return bilateral_asg_tap(0, bilateral_asg_prepare(i), bilateral_asg_prepare(j), beta);
@@ -411,21 +673,39 @@ LOBE_API float bilateral_asg_weight(asg_lobe i, asg_lobe j, float beta) {
 
 /* ---- several lobes as one ---- */
 
+/* ln of a lobe's integral */
+LOBE_API float lobe_bilateral_log_energy(sg_lobe g) {
+    return g.log_amplitude + lobe_log(sg_integral(lobe_sharpness(g)));
+}
+
+/*
+ bilateral_merge - several lobes as one, of the same integral and mean direction
+
+   lobes      1 or more; sharpness [0, 1e30]
+   returns    the axis is the mean direction, the sharpness from its length; at most 1e18
+
+   Rounding: sharpness of three lobes within 5e-5 relative, axis within 8e-7, integral within 4e-6
+             [bound bilateral_merge sharpness 5e-5 over 1e-3 1e8] [bound bilateral_merge axis 8e-7]
+             [bound bilateral_merge integral 4e-6]
+   Model:    lengths are Toksvig's l / (l + 1) both ways, see sg_mean_length: of lobes of sharpness 10 or more within 1 of
+             one direction the mean's length is within .08 of the sum's   [bound bilateral_merge model .08 over 10 1e6]
+   Source:   Toksvig 2005, which 004 names; as vsgl_cluster_merge, which stays exact at high sharpness
+*/
 LOBE_API sg_lobe bilateral_merge(const sg_lobe *lobes, int count) {
     sg_lobe sum, merged;
     float top = -LOBE_HUGE, total = 0;
     int l;
     LOBE_ASSERT(count > 0);
-    for (l = 0; l < count; l++) top = lobe_max(top, lobes[l].log_amplitude + lobe_log(sg_integral(lobes[l].sharpness)));
+    for (l = 0; l < count; l++) top = lobe_max(top, lobe_bilateral_log_energy(lobes[l]));
     sum.axis = lobes[0].axis;
     sum.sharpness = 0;
     sum.log_amplitude = 0;
     for (l = 0; l < count; l++) {
-        float energy = lobe_exp(lobes[l].log_amplitude + lobe_log(sg_integral(lobes[l].sharpness)) - top);
+        float energy = lobe_exp(lobe_bilateral_log_energy(lobes[l]) - top), sharpness = lobe_sharpness(lobes[l]);
         sg_lobe part;
         part.axis = lobes[l].axis;
-        part.log_amplitude = -energy / (lobes[l].sharpness + 1);
-        part.sharpness = -lobes[l].sharpness * part.log_amplitude;
+        part.log_amplitude = -energy / (sharpness + 1);
+        part.sharpness = sharpness * -part.log_amplitude;
         sum = sg_product(sum, part);
         total += energy;
     }
@@ -437,6 +717,19 @@ LOBE_API sg_lobe bilateral_merge(const sg_lobe *lobes, int count) {
 
 /* ---- both pixels of a pair ---- */
 
+/*
+ bilateral_pairs_add - adds a row of weights, each to the sums of both pixels of its pair
+
+   weight              count of them
+   first, second       channels planes of colour each, from the row's first pixel and from its partner on
+   first_sum, second_sum
+                       channels planes each of sums of weight times the partner's colour, and one of weights; those of
+                       first and second may overlap
+
+   Rounding: 2^-23 of each sum and addend   [bound bilateral_pairs_add rel 0x1p-23]
+   Model:    exact
+   Source:   004, Eq. 1
+*/
 LOBE_API void bilateral_pairs_add(int count, const float *weight, int channels, const float *const *first,
                                   const float *const *second, float *const *first_sum, float *const *second_sum) {
     int c, x;
@@ -454,10 +747,23 @@ LOBE_API void bilateral_pairs_add(int count, const float *weight, int channels, 
 
 /* ---- upsampling and reprojection ---- */
 
+/*
+ bilateral_footprint - the 2 x 2 taps of bilinear interpolation
+
+   x, y           in pixels of the image sampled, whose centres are at whole numbers
+   width, height  of it, up to 2^20
+   left, top      the first tap's pixel, from -1 on; the others are right of it, below, and both
+   weight         of (left, top), (left + 1, top), (left, top + 1), (left + 1, top + 1): 0 outside the image, where their
+                  sum falls to 0 within a pixel
+
+   Rounding: 2^-22   [bound bilateral_footprint abs 0x1p-22]
+   Model:    exact
+   Source:   Kopf et al. 2007; 004, section 5
+*/
 LOBE_API void bilateral_footprint(float x, float y, int width, int height, int *left, int *top, float weight[4]) {
     float cx = lobe_min(lobe_max(x, -1), (float)width), cy = lobe_min(lobe_max(y, -1), (float)height);
     int ix = (int)(cx + 1) - 1, iy = (int)(cy + 1) - 1;
-    float fx = cx - (float)ix, fy = cy - (float)iy;
+    float fx = lobe_at_least(cx - (float)ix, 0), fy = lobe_at_least(cy - (float)iy, 0);
     float wl = ix >= 0 && ix < width ? 1 - fx : 0, wr = ix + 1 < width ? fx : 0;
     float wt = iy >= 0 && iy < height ? 1 - fy : 0, wb = iy + 1 < height ? fy : 0;
     *left = ix;
@@ -468,6 +774,18 @@ LOBE_API void bilateral_footprint(float x, float y, int width, int height, int *
     weight[3] = wr * wb;
 }
 
+/*
+ bilateral_footprint_weights - joint bilateral weights of four taps
+
+   footprint   of bilateral_footprint
+   similarity  weights of the taps' depths and lobes, and whether they are valid
+   weight      their products over the sum; all 0 where the sum is below 1e-30
+   returns     the sum, [0, 1]: small where the pixel should be recomputed
+
+   Rounding: weights sum to 1 within 4e-7   [bound bilateral_footprint_weights sum 4e-7]
+   Model:    exact
+   Source:   004, Eq. 1; Kopf et al. 2007
+*/
 LOBE_API float bilateral_footprint_weights(const float footprint[4], const float similarity[4], float weight[4]) {
     float w0 = footprint[0] * similarity[0], w1 = footprint[1] * similarity[1];
     float w2 = footprint[2] * similarity[2], w3 = footprint[3] * similarity[3];
@@ -479,14 +797,22 @@ LOBE_API float bilateral_footprint_weights(const float footprint[4], const float
     return total;
 }
 
+/*
+ bilateral_history_share - how much of a pixel the reprojected image should make up
+
+   total      of bilateral_footprint_weights at the place the pixel was seen before
+   count      samples in that image, 0 or more
+   most       [0, 1e6], at most so many count, so that old light fades
+   returns    s in [0, 1): the pixel is history times s plus new times 1 - s, and then has 1 / (1 - s) samples
+
+   Rounding: <= 3 ulp   [bound bilateral_history_share ulp 3]
+   Model:    the mean of all samples, those of the past times their similarity
+   Source:   Herzog et al. 2010; Knecht 2009, as in 004, section 5
+*/
 LOBE_API float bilateral_history_share(float total, float count, float most) {
-    float old = total * lobe_min(count, most);
+    float old = lobe_at_least(total, 0) * lobe_at_least(lobe_min(count, most), 0);
     return old / (old + 1);
 }
-
-#ifdef __clang__
-#pragma clang attribute pop
-#endif
 
 #endif
 /*

@@ -84,7 +84,8 @@ extern "C" __attribute__((__const__)) float sqrtf(float) __THROW;
 #define LOBE_API static inline
 #endif
 #ifdef __GNUC__
-#define LOBE_INLINE LOBE_API __attribute__((always_inline)) /* for what would stay a call in a loop, since it is large */
+#define LOBE_INLINE                                                                                                    \
+    LOBE_API __attribute__((always_inline)) /* for what would stay a call in a loop, since it is large */
 #else
 #define LOBE_INLINE LOBE_API
 #endif

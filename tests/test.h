@@ -61,5 +61,6 @@ extern const test_case sg_tests[];
 extern const test_case asg_tests[];
 extern const test_case fis_tests[];
 extern const test_case ggx_bound_tests[];
+extern const test_case bilateral_tests[];
 
 #endif
