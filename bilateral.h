@@ -573,7 +573,7 @@ LOBE_API bilateral_asg bilateral_asg_prepare(asg_lobe a) {
     p.z = a.z;
     p.sharpness_x = a.sharpness_x;
     p.sharpness_y = a.sharpness_y;
-    p.own_scale = 1.000001f / (mean * mean * square);
+    p.own_scale = 1.000001f / (mean * sqrtf(square));
     p.own_exponent = 0.5f * m.tau;
     return p;
 }
@@ -594,7 +594,7 @@ LOBE_INLINE float bilateral_asg_tap(float exponent, bilateral_asg i, bilateral_a
     lobe_asg_means m = lobe_asg_means_of(lobe_asg_pair_of(lobe_bilateral_asg(i), lobe_bilateral_asg(j)));
     float square, mean = lobe_asg_clamped_mean(m, &square);
     float ratio = mean * mean * square * (i.own_scale * j.own_scale);
-    float similar = 0.5f * lobe_bilateral_log2(ratio) + (m.tau - (i.own_exponent + j.own_exponent));
+    float similar = 0.34657359f * lobe_bilateral_log2(ratio) + (m.tau - (i.own_exponent + j.own_exponent));
     return lobe_exp2(exponent - LOBE_LOG2E * beta * lobe_at_least(-similar, 0));
 }
 
@@ -649,7 +649,7 @@ LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *
             stage[9][x] *= mean * mean * square;
         }
         for (x = 0; x < n; x++) {
-            float similar = 0.5f * lobe_bilateral_log2(stage[9][x]) + stage[10][x];
+            float similar = 0.34657359f * lobe_bilateral_log2(stage[9][x]) + stage[10][x];
             weight[from + x] = lobe_exp2(weight[from + x] - LOBE_LOG2E * beta * lobe_at_least(-similar, 0));
         }
     }
