@@ -1196,12 +1196,461 @@ static void show_weights(const settings *o) {
     frame_free(&f);
 }
 
-int main(void) {
-    settings o = {{256, 192}, 8, 256, 0, "/tmp/lobe/x", 0, 0, 0, 0, 0, 0, 0};
-    float sh[2] = {.000977f, 8};
+/* ---- upsampling: one pixel of 4 x 4 is shaded a frame ---- */
+
+enum { CELL = 4, FRAMES = CELL * CELL, MOST_SAMPLES = 16, MOVING_BALL = GALLERY_WALLS + 1 };
+static const float upsampling_kappa = 100, normal_variance = 0.01f, lobe_beta = 20, least_weight = 0.25f;
+
+/* Which pixel of a cell is shaded in each frame: every one once */
+static const int shaded_column[FRAMES] = {1, 3, 0, 2, 3, 1, 2, 0, 0, 2, 1, 3, 2, 0, 3, 1};
+static const int shaded_row[FRAMES] = {1, 3, 3, 1, 0, 2, 2, 0, 2, 0, 0, 2, 3, 1, 1, 3};
+
+typedef struct {
+    int lobes, temporal, adaptive; /* similarity of lobes, not of normals; with a history; recomputing */
+    float parameter;
+    image result, history;        /* of this frame and of the last */
+    float *samples, *old_samples; /* total weight that a pixel's value is the mean of */
+    int recomputed;
+    double filter_ms, shade_ms;
+} upsampler;
+
+typedef struct {
+    int width, height, column, row; /* and where in its cell each is */
+    vec3 *colours;
+} coarse;
+
+static float likeness(const upsampler *u, const guide *i, float depth, const guide *j) {
+    if (!j->valid) return 0;
+    return bilateral_depth_weight(depth, j->depth, scene_depth_variance) *
+           (u->lobes ? bilateral_sg_weight(i->lobe, j->lobe, u->parameter)
+                     : bilateral_normal_weight(i->normal, j->normal, u->parameter));
+}
+
+/* The value by this frame's samples around, and their total weight */
+static float upsample_pixel(const upsampler *u, const frame *f, const coarse *low, int x, int y, vec3 *colour) {
+    const float column = (float)(x - low->column) / CELL, row = (float)(y - low->row) / CELL;
+    const guide *g = &f->guides[y * f->width + x];
+    float footprint[4], similarity[4], weight[4], total;
+    int left, top, k;
+    bilateral_footprint(lobe_max(0, lobe_min(column, (float)(low->width - 1))),
+                        lobe_max(0, lobe_min(row, (float)(low->height - 1))), low->width, low->height, &left, &top,
+                        footprint);
+    for (k = 0; k < 4; k++) {
+        const int i = left + (k & 1), j = top + (k >> 1);
+        similarity[k] = 0;
+        if (footprint[k] > 0)
+            similarity[k] =
+                likeness(u, g, g->depth, &f->guides[(j * CELL + low->row) * f->width + i * CELL + low->column]);
+    }
+    total = bilateral_footprint_weights(footprint, similarity, weight);
+    *colour = lobe_vector(0, 0, 0);
+    for (k = 0; k < 4; k++) {
+        if (weight[k] > 0)
+            *colour =
+                lobe_add(*colour, lobe_scale(low->colours[(top + (k >> 1)) * low->width + left + (k & 1)], weight[k]));
+    }
+    return total;
+}
+
+/* Where a point of the scene is in the image */
+static void project(const frame *f, vec3 point, float *x, float *y, float *distance) {
+    const camera *eye = &f->world.eye;
+    const vec3 forward = vec3_normalize(lobe_sub(eye->target, eye->position)), d = lobe_sub(point, eye->position);
+    const float scale = 0.5f * (float)f->height / (tanf(0.5f * eye->field_of_view) * lobe_dot(d, forward));
+    vec3 right, up;
+    scene_frame(forward, &right, &up);
+    *x = 0.5f * (float)f->width - 0.5f + scale * lobe_dot(d, right);
+    *y = 0.5f * (float)f->height - 0.5f - scale * lobe_dot(d, up);
+    *distance = vec3_length(d);
+}
+
+/* The value that the last frame has for what is seen here, and the samples that it is the mean of */
+static float recall_pixel(const upsampler *u, const frame *f, const frame *last, vec3 motion, int index, vec3 *colour) {
+    const surface *hit = &f->seen.texels[index].hit;
+    const vec3 before = hit->shape == MOVING_BALL ? lobe_sub(hit->position, motion) : hit->position;
+    float x, y, distance, footprint[4], similarity[4], weight[4], total, samples = 0;
+    int left, top, k;
+    project(last, before, &x, &y, &distance);
+    bilateral_footprint(x, y, f->width, f->height, &left, &top, footprint);
+    for (k = 0; k < 4; k++) {
+        similarity[k] = 0;
+        if (footprint[k] > 0.001f) /* not by rounding of the place */
+            similarity[k] =
+                likeness(u, &f->guides[index], distance, &last->guides[(top + (k >> 1)) * f->width + left + (k & 1)]);
+    }
+    total = bilateral_footprint_weights(footprint, similarity, weight);
+    *colour = lobe_vector(0, 0, 0);
+    for (k = 0; k < 4; k++) {
+        const int at = (top + (k >> 1)) * f->width + left + (k & 1);
+        if (!(weight[k] > 0)) continue;
+        *colour = lobe_add(*colour, lobe_scale(u->history.pixels[at], weight[k]));
+        samples += weight[k] * u->old_samples[at];
+    }
+    return total * lobe_min(samples, MOST_SAMPLES);
+}
+
+/* How much a frame's value counts at a pixel: that of pixels near a shaded one is better. */
+static float nearness(const coarse *low, int x, int y) {
+    int dx = (x - low->column + CELL) % CELL, dy = (y - low->row + CELL) % CELL;
+    dx = dx > CELL / 2 ? CELL - dx : dx;
+    dy = dy > CELL / 2 ? CELL - dy : dy;
+    return lobe_exp(-(float)(dx * dx + dy * dy));
+}
+
+/* One frame of one upsampler: Eq. 1 over samples near in space and, by the history, in time */
+static void upsample(upsampler *u, const frame *f, const frame *last, vec3 motion, const coarse *low, int reference,
+                     unsigned seed) {
+    const image swapped = u->history;
+    float *const samples = u->old_samples;
+    char *poor = (char *)allocate("images", (size_t)(f->width * f->height), 1);
+    double started = progress_clock();
+    int row, i;
+    u->history = u->result;
+    u->result = swapped;
+    u->old_samples = u->samples;
+    u->samples = samples;
+    PARALLEL_FOR
+    for (row = 0; row < f->height; row++) {
+        int x;
+        for (x = 0; x < f->width; x++) {
+            const int at = row * f->width + x;
+            vec3 now, old = {0, 0, 0};
+            float total, share, recalled = 0;
+            if (!f->guides[at].valid) {
+                u->result.pixels[at] = shade_pixel(f, at, 1, seed, 1); /* a wall, as it is */
+                continue;
+            }
+            total = upsample_pixel(u, f, low, x, row, &now);
+            if (u->temporal && last) recalled = recall_pixel(u, f, last, motion, at, &old);
+            poor[at] = total + recalled < least_weight;
+            total *= u->temporal ? nearness(low, x, row) : 1;
+            share = recalled / lobe_max(recalled + total, 1e-20f);
+            u->result.pixels[at] = lobe_add(lobe_scale(old, share), lobe_scale(now, 1 - share));
+            u->samples[at] = recalled + total;
+        }
+    }
+    u->filter_ms = progress_clock() - started;
+    u->recomputed = 0;
+    started = progress_clock();
+    if (u->adaptive) {
+        PARALLEL_FOR
+        for (row = 0; row < f->height; row++) {
+            int at;
+            for (at = row * f->width; at < (row + 1) * f->width; at++) {
+                if (!poor[at]) continue;
+                u->result.pixels[at] = shade_pixel(f, at, reference, seed, 1);
+                u->samples[at] = 1;
+            }
+        }
+    }
+    u->shade_ms = progress_clock() - started;
+    for (i = 0; i < f->width * f->height; i++) u->recomputed += poor[i];
+    free(poor);
+}
+
+static void shade_coarse(const frame *f, coarse *low, int number, int reference, unsigned seed) {
+    int row;
+    low->column = shaded_column[number];
+    low->row = shaded_row[number];
+    PARALLEL_FOR
+    for (row = 0; row < low->height; row++) {
+        int x;
+        for (x = 0; x < low->width; x++)
+            low->colours[row * low->width + x] =
+                shade_pixel(f, (row * CELL + low->row) * f->width + x * CELL + low->column, reference, seed, 1);
+    }
+}
+
+/* What parameters would have been best in space alone: the first two upsamplers' */
+static void find_upsampling_best(const upsampler *first, const frame *f, const coarse *low, const truth *wanted,
+                                 unsigned seed) {
+    const vec3 still = {0, 0, 0};
+    int k;
+    printf("\nIn space alone, at the best parameter:");
+    for (k = 0; k < 2; k++) {
+        const method_data *d = &methods[k ? EQ12 : NORMAL];
+        upsampler u = first[k];
+        double least = 1e300;
+        float power, best = 0;
+        u.result = create(f->width, f->height);
+        u.history = create(f->width, f->height);
+        for (power = d->low[0]; power <= d->high[0]; power += 1) {
+            double error;
+            u.parameter = exp2f(power);
+            upsample(&u, f, NULL, still, low, 1, seed);
+            error = error_of(f, &u.result, wanted);
+            if (error < least) {
+                least = error;
+                best = u.parameter;
+            }
+        }
+        printf(" %s %.5f at %s %.3g%s", k ? "lobes" : "normals", least, d->parameter, (double)best, k ? "\n" : ",");
+        image_free(&u.result);
+        image_free(&u.history);
+    }
+}
+
+enum { UPSAMPLERS = 8 };
+
+static void show_upsampling(const settings *o) {
+    static const subject what = {"upsampling", scene_gallery, look_tiles, 0};
+    const int width = o->size.width, height = o->size.height;
+    const vec3 motion = {0.025f, 0, 0.01f}; /* of the ball in the middle, a frame */
+    const unsigned seed = (unsigned)o->seed + 7;
+    upsampler u[UPSAMPLERS];
+    image sheet = create(SHEET_COLUMNS * width, 2 * height);
+    progress line = progress_begin("upsampling", FRAMES);
+    double coarse_ms = 0, full_ms, count = 0;
+    frame f, last;
+    coarse low;
+    truth wanted;
+    int number, k, i;
+    low.width = width / CELL;
+    low.height = height / CELL;
+    low.colours = (vec3 *)allocate("images", (size_t)(low.width * low.height), sizeof *low.colours);
+    memset(u, 0, sizeof u);
+    for (k = 0; k < UPSAMPLERS; k++) {
+        u[k].lobes = k & 1;
+        u[k].temporal = k >> 1 & 1;
+        u[k].adaptive = k >> 2;
+        u[k].parameter = u[k].lobes ? lobe_beta : normal_variance;
+        u[k].result = create(width, height);
+        u[k].history = create(width, height);
+        u[k].samples = (float *)allocate("images", (size_t)(width * height), sizeof(float));
+        u[k].old_samples = (float *)allocate("images", (size_t)(width * height), sizeof(float));
+    }
+    for (number = 0; number < FRAMES; number++) {
+        scene world = what.build();
+        double started;
+        shape *ball = &world.shapes[MOVING_BALL];
+        ball->center = lobe_add(ball->center, lobe_scale(motion, (float)(number - FRAMES / 2)));
+        if (number > 0) last = f;
+        f = frame_of(&world, &what, width, height);
+        for (i = 0; i < width * height; i++) {
+            if (f.guides[i].valid) f.guides[i].lobe = sg_convolve(f.guides[i].lobe, upsampling_kappa);
+        }
+        started = progress_clock();
+        shade_coarse(&f, &low, number, o->reference, seed);
+        coarse_ms = progress_clock() - started;
+        for (k = 0; k < UPSAMPLERS; k++) {
+            if (u[k].temporal || number == FRAMES - 1)
+                upsample(&u[k], &f, number > 0 ? &last : NULL, motion, &low, o->reference, seed);
+        }
+        if (number > 0) frame_free(&last);
+        progress_step(&line);
+    }
+    full_ms = progress_clock();
+    wanted = truth_of(&f, 2 * o->reference, seed, "upsampling");
+    full_ms = 0.5 * (progress_clock() - full_ms);
+    progress_end(&line);
+    for (i = 0; i < width * height; i++) count += f.guides[i].valid;
+    printf(
+        "\nUpsampling of one shaded pixel in 4 x 4, frame %d of a scene with a moving ball; normals: variance %g, "
+        "lobes:\n"
+        "beta %g, kappa %g; recomputed where the total weight is below %g. Milliseconds by all threads; shading all\n"
+        "pixels takes %.0f ms.\n\n%-34s%10s%12s%10s%12s%10s\n",
+        FRAMES, (double)normal_variance, (double)lobe_beta, (double)upsampling_kappa, (double)least_weight, full_ms, "",
+        "MSE", "poor or", "weights", "shading", "total");
+    printf("%-34s%10s%12s%10s%12s%10s\n", "", "", "recomputed", "ms", "ms", "ms");
+    for (k = 0; k < UPSAMPLERS; k++) {
+        printf("%-9s%-16s%-9s%10.5f%10.2f %%%10.2f%12.1f%10.1f\n", u[k].lobes ? "lobes," : "normals,",
+               u[k].temporal ? "space and time" : "space", u[k].adaptive ? " anew" : "",
+               error_of(&f, &u[k].result, &wanted), 100 * u[k].recomputed / count, u[k].filter_ms,
+               coarse_ms + u[k].shade_ms, u[k].filter_ms + coarse_ms + u[k].shade_ms);
+    }
+    find_upsampling_best(u, &f, &low, &wanted, seed);
+    for (k = 0; k < SHEET_COLUMNS - 1; k++) {
+        static const int columns[SHEET_COLUMNS - 1] = {0, 1, 3, 7};
+        paste_with_difference(&f, &sheet, &u[columns[k]].result, &wanted.mean, k);
+    }
+    image_paste(&sheet, &wanted.mean, (SHEET_COLUMNS - 1) * width, 0);
+    printf("\n");
+    write_picture(o->out, "-upsampling.png", &sheet,
+                  "by normals; by lobes; in time too; and anew where poor; reference; errors below");
+    for (k = 0; k < UPSAMPLERS; k++) {
+        image_free(&u[k].result);
+        image_free(&u[k].history);
+        free(u[k].samples);
+        free(u[k].old_samples);
+    }
+    frame_free(&f);
+    truth_free(&wanted);
+    image_free(&sheet);
+    free(low.colours);
+}
+
+/* ---- buffers of a user's ---- */
+
+static void refuse_texel(const char *path, int x, int y, const char *why) {
+    char text[128];
+    snprintf(text, sizeof text, "at column %d of row %d from the top %s", x, y, why);
+    give_up(path, text);
+}
+
+/* Values of a file that must have so many channels and be of the first one's size */
+static raster read_buffer(const char *path, int channels, const raster *like) {
+    raster r;
+    const char *wrong = raster_read(path, &r);
+    if (wrong) give_up(path, wrong);
+    if (r.channels != channels)
+        give_up(path, channels == 1 ? "it has three channels, not one" : "it has one channel, not three");
+    if (r.width > SIDE_LIMIT || r.height > SIDE_LIMIT) give_up(path, "it is wider or higher than 16384");
+    if (like && (r.width != like->width || r.height != like->height)) give_up(path, "its size is not that of --color");
+    return r;
+}
+
+static vec3 texel_of(const raster *r, int i) {
+    const float *v = r->values + 3 * (size_t)i;
+    return lobe_vector(v[0], v[1], v[2]);
+}
+
+/* Not more than the limit in size; NaN is not. */
+static int is_within(vec3 v, float limit) {
+    return fabsf(v.x) <= limit && fabsf(v.y) <= limit && fabsf(v.z) <= limit;
+}
+
+/* In the camera's frame: x to the right, y up, z towards the viewer. A depth of 0: nothing there. */
+static void read_guides(const settings *o, const raster *depth, const raster *normals, const raster *alphas,
+                        guide *guides) {
+    const float tangent = tanf(0.5f * o->field_of_view * LOBE_PI / 180), width = (float)depth->width,
+                height = (float)depth->height;
+    int x, y;
+    for (y = 0; y < depth->height; y++) {
+        for (x = 0; x < depth->width; x++) {
+            const int i = y * depth->width + x;
+            const float z = depth->values[i], alpha = alphas->values[i];
+            vec3 n = texel_of(normals, i), view, unused;
+            glossy look;
+            if (!(z >= 0 && z <= 1e9f)) refuse_texel(o->depth, x, y, "it is not from 0 to 1e9");
+            if (!(alpha >= 0 && alpha <= 1)) refuse_texel(o->alpha, x, y, "it is not from 0 to 1");
+            if (!is_within(n, 1e6f)) refuse_texel(o->normal, x, y, "it is not a normal");
+            if (!(z > 0)) continue;
+            if (!(lobe_dot(n, n) > 1e-6f)) refuse_texel(o->normal, x, y, "its length is 0");
+            n = vec3_normalize(n);
+            view = vec3_normalize(lobe_vector((1 - (2 * (float)x + 1) / width) * tangent * width / height,
+                                              ((2 * (float)y + 1) / height - 1) * tangent, 1));
+            look = one_lobe(GLOSSY_GGX, lobe_max(alpha, 1e-3f), lobe_max(alpha, 1e-3f));
+            lobe_frame(n, &look.tangent, &unused);
+            guides[i] = guide_of(&look, n, view, z);
+        }
+    }
+}
+
+static void write_raster(const char *prefix, const image *picture) {
+    char path[1024];
+    const char *wrong;
+    raster r;
     int i;
-    for (i = 0; i < SCENES; i++) show_scene(&o, &scenes[i], sh);
+    name_file(path, prefix, ".pfm");
+    r.width = picture->width;
+    r.height = picture->height;
+    r.channels = 3;
+    r.values = (float *)allocate("images", (size_t)r.width * (size_t)r.height, 3 * sizeof *r.values);
+    for (i = 0; i < r.width * r.height; i++) {
+        r.values[3 * (size_t)i] = picture->pixels[i].x;
+        r.values[3 * (size_t)i + 1] = picture->pixels[i].y;
+        r.values[3 * (size_t)i + 2] = picture->pixels[i].z;
+    }
+    wrong = raster_write(path, &r);
+    free(r.values);
+    if (wrong) give_up(path, wrong);
+    printf("wrote %s\n", path);
+}
+
+/* Eq. 12, of GGX lobes */
+static void filter_buffers(const settings *o) {
+    raster color, depth, normals, alphas;
+    image noisy, result;
+    guide *guides;
+    planes room;
+    progress line;
+    int i, row;
+    if (!o->color || !o->depth || !o->normal || !o->alpha)
+        give_up("buffers", "--color, --depth, --normal and --alpha are needed together");
+    check_file(o->out, ".pfm");
+    check_file(o->out, ".png");
+    color = read_buffer(o->color, 3, NULL);
+    depth = read_buffer(o->depth, 1, &color);
+    normals = read_buffer(o->normal, 3, &color);
+    alphas = read_buffer(o->alpha, 1, &color);
+    noisy = create(color.width, color.height);
+    for (i = 0; i < color.width * color.height; i++) {
+        noisy.pixels[i] = texel_of(&color, i);
+        if (!is_within(noisy.pixels[i], 1e30f))
+            refuse_texel(o->color, i % color.width, i / color.width, "it is not a number up to 1e30");
+    }
+    guides = (guide *)allocate("images", (size_t)color.width * (size_t)color.height, sizeof *guides);
+    read_guides(o, &depth, &normals, &alphas, guides);
+    free(color.values);
+    free(depth.values);
+    free(normals.values);
+    free(alphas.values);
+    room = planes_create(noisy.width, noisy.height, 1);
+    result = create(noisy.width, noisy.height);
+    fill_colours(&room, &noisy);
+    fill_planes(&room, guides, EQ12, &o->beta, o->depth_variance);
+    line = progress_begin("filter", noisy.height);
+    PARALLEL_FOR
+    for (row = 0; row < noisy.height; row++) {
+        filter_row(&room, EQ12, &o->beta, row, &result);
+        progress_step(&line);
+    }
+    progress_end(&line);
+    write_raster(o->out, &result);
+    write_picture(o->out, ".png", &result, "the same, as it looks");
+    free(guides);
+    free(room.memory);
+    image_free(&noisy);
+    image_free(&result);
+}
+
+static void check_study_files(const char *prefix) {
+    static const char *const rests[] = {"-similarity.csv", "-normals.csv", "-lobes.csv", "-weights.png",
+                                        "-upsampling.png"};
+    char rest[64];
+    int i;
+    for (i = 0; i < (int)(sizeof rests / sizeof *rests); i++) check_file(prefix, rests[i]);
+    for (i = 0; i < SCENES; i++) {
+        snprintf(rest, sizeof rest, "-%s.png", scenes[i].what.name);
+        check_file(prefix, rest);
+    }
+}
+
+int main(int argc, char **argv) {
+    settings o = {{256, 192}, 8, 256, 0, "build/lobe_filter", NULL, NULL, NULL, NULL, 45, 8, 0.1f};
+    const option options[] = {
+        OPTION_OF_SIZE(&o.size),
+        {"--samples N", OPTION_WHOLE, &o.samples, 1, 4096, "paths a pixel of what is filtered", 0},
+        {"--reference N", OPTION_WHOLE, &o.reference, 2, 65536, "paths a pixel of what that should be", 0},
+        OPTION_OF_SEED(&o.seed),
+        OPTION_OF_OUT(&o.out),
+        {"--color FILE", OPTION_TEXT, &o.color, 0, 0,
+         "PFM of yours to filter instead of all that, by Eq. 12: noisy light, reflectance divided out", 0},
+        {"--depth FILE", OPTION_TEXT, &o.depth, 0, 0, "its depths, one channel; 0: nothing there", 0},
+        {"--normal FILE", OPTION_TEXT, &o.normal, 0, 0, "its normals: x to the right, y up, z to the viewer", 0},
+        {"--alpha FILE", OPTION_TEXT, &o.alpha, 0, 0, "its GGX roughness, one channel", 0},
+        {"--fov DEGREES", OPTION_REAL, &o.field_of_view, 1, 170, "vertical field of view of yours", 0},
+        {"--beta X", OPTION_REAL, &o.beta, 1e-3, 1e3, "how like lobes must be in yours", 0},
+        {"--depth-variance X", OPTION_REAL, &o.depth_variance, 1e-9, 1e9, "how like depths must be in yours", 0},
+        {0, OPTION_WHOLE, 0, 0, 0, 0, 0},
+    };
+    float shared[2];
+    int i;
+    options_read(options, argc, argv,
+                 "Filters and upsamples noisy glossy light by weights that know the reflection lobes and by others,\n"
+                 "and prints how far each is from what it should be, and how long it takes.");
+    if (o.color || o.depth || o.normal || o.alpha) {
+        filter_buffers(&o);
+        return 0;
+    }
+    check_study_files(o.out);
+    printf("%dx%d pixels, %d paths each, %d for the reference; filters of %dx%d pixels. Errors are mean squares over\n"
+           "what is glossy; times are the medians of %d turns on one core, preparation included.\n",
+           o.size.width, o.size.height, o.samples, o.reference, 2 * RADIUS + 1, 2 * RADIUS + 1, ROUNDS);
+    compare_similarities(&o);
+    compare_materials(&o, shared);
+    for (i = 0; i < SCENES; i++) show_scene(&o, &scenes[i], shared);
     show_weights(&o);
-    compare_materials(&o, sh);
+    show_upsampling(&o);
     return 0;
 }

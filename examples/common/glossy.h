@@ -53,8 +53,7 @@ static inline int glossy_draw(const glossy *look, vec3 normal, vec3 wo, const fl
     float passed = lobe->share, nh, oh, ni, no = lobe_dot(normal, wo), weight;
     while (u[3] >= passed && lobe < look->lobes + look->count - 1) passed += (++lobe)->share;
     local = glossy_half_vector(lobe, u[0], u[1]);
-    h = lobe_add(lobe_add(lobe_scale(look->tangent, local.x),
-                          lobe_scale(lobe_cross(normal, look->tangent), local.y)),
+    h = lobe_add(lobe_add(lobe_scale(look->tangent, local.x), lobe_scale(lobe_cross(normal, look->tangent), local.y)),
                  lobe_scale(normal, local.z));
     nh = local.z;
     oh = lobe_dot(wo, h);
