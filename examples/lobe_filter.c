@@ -107,7 +107,7 @@ static glossy three_lobes(float first, float second, float third, float a, float
 static glossy look_layers(const surface *hit, int which) {
     (void)which;
     if (hit->shape == GALLERY_FLOOR)
-        return tile_of(hit) ? three_lobes(4000, 300, 30, 0.5f, 0.3f) : three_lobes(200, 40, 6, 0.5f, 0.3f);
+        return tile_of(hit) ? three_lobes(4000, 1000, 300, 0.4f, 0.4f) : three_lobes(100, 25, 8, 0.4f, 0.4f);
     return band_of(hit, 8) & 1 ? three_lobes(3000, 200, 12, 0.6f, 0.3f) : three_lobes(3000, 200, 12, 0.1f, 0.3f);
 }
 
@@ -119,7 +119,7 @@ static glossy look_phong(const surface *hit, int which) {
 }
 
 static glossy look_mixture(const surface *hit, int which) {
-    static const float lobes[3][5] = {{60, 15, 4, 0.5f, 0.3f}, {600, 100, 12, 0.5f, 0.3f}, {6000, 700, 60, 0.5f, 0.3f}};
+    static const float lobes[3][5] = {{40, 10, 3, 0.4f, 0.4f}, {400, 100, 30, 0.4f, 0.4f}, {4000, 1000, 300, 0.4f, 0.4f}};
     const float *l = lobes[which];
     (void)hit;
     return three_lobes(l[0], l[1], l[2], l[3], l[4]);
