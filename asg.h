@@ -343,15 +343,6 @@ LOBE_INLINE float lobe_asg_clamped_mean(lobe_asg_means m, float *square) {
     return lobe_at_most(0.5f * lobe_at_least(c, 0) + 0.5f / LOBE_PI * (cross * sqrtf(cross)) * (m.scale * inverse), 2);
 }
 
-/* The same as factor and exponent, with the amplitudes. */
-LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
-    lobe_asg_means m = lobe_asg_means_of(lobe_asg_pair_of(a, b));
-    float square, mean = lobe_asg_clamped_mean(m, &square);
-    LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && b.sharpness_x >= 0 && b.sharpness_y >= 0);
-    *exponent = (a.log_amplitude + b.log_amplitude) + m.tau;
-    return LOBE_PI * mean * sqrtf(square);
-}
-
 /*
  asg_product_integral - integral of the product of two ASGs over the sphere
 
@@ -362,25 +353,22 @@ LOBE_API float lobe_asg_product(asg_lobe a, asg_lobe b, float *exponent) {
              [bound asg_product_integral directional 5 over 1e6 1e8]
              and 16 against the formula in double where above 1 % of the mean below
              [bound asg_product_integral formula 16 over 1e-2 1e6]
-             The weight, the integral over the geometric mean of the lobes' integrals with themselves, is exactly 1 for
-             a lobe and itself (by one copy of the code, if -ffast-math) and at most 1 + 3e-4 else; of lobes of any
-             sharpness up to 1e9 it is symmetric to 1.5e-6, and to the last bit where sums are not contracted
+             Over the geometric mean of the lobes' integrals with themselves it is at most 1 + 3e-4; of lobes of any
+             sharpness up to 1e9 it is symmetric to 1.5e-6 of that, and to the last bit where sums are not contracted
              [bound asg_product_integral symmetric 1.5e-6] [bound asg_product_integral excess 3e-4]
-             As one lobe turns away from the other it falls, but for 1e-6   [bound asg_product_integral monotone 1e-6]
    Model:    within .0125 of that mean, relative RMS .045 where the value is above 1 % of it; for sharpness of 10 or
-             more within .003 relative where it is above 1 % of the mean; the weight, as 004, Eq. 13 with beta 1,
-             within .0125, RMS .001
+             more within .003 relative where it is above 1 % of the mean
              [bound asg_product_integral aligned .0125 over 1e-2 1e5]
              [bound asg_product_integral rms .045 over 1e-2 1e5] [bound asg_product_integral sharp .003 over 10 1e5]
-             [bound asg_product_integral weight .0125 over .1 1e5]
-             [bound asg_product_integral weight_rms .001 over .1 1e5]
    Source:   derived for this library: saddlepoint of the Bingham normaliser, fitted moments, and the arc-cosine kernel
              for both clamped cosines. No eigenvectors: the coefficients of the characteristic polynomial are sums of
              positive terms, where Cardano's formula cancels (004, "Errors of ASGs").
 */
 LOBE_API float asg_product_integral(asg_lobe a, asg_lobe b) {
-    float exponent, factor = lobe_asg_product(a, b, &exponent);
-    return factor * lobe_asg_exp(exponent);
+    lobe_asg_means m = lobe_asg_means_of(lobe_asg_pair_of(a, b));
+    float square, mean = lobe_asg_clamped_mean(m, &square);
+    LOBE_ASSERT(a.sharpness_x >= 0 && a.sharpness_y >= 0 && b.sharpness_x >= 0 && b.sharpness_y >= 0);
+    return LOBE_PI * mean * sqrtf(square) * lobe_asg_exp((a.log_amplitude + b.log_amplitude) + m.tau);
 }
 
 /*

@@ -30,8 +30,8 @@
  Upsampling and reprojection: bilateral_footprint, the taps' similarities (times 0 for a sample that is not valid),
  bilateral_footprint_weights, whose total tells the same.
 
- Errors: as in sg.h. "similarity" is in (1 + e + beta + sqrt(l e) + 2^-24 l) 2^-24 of the weight for e = -ln of it and l =
- beta times the smaller sharpness: what rounding of the logarithm and of unit vectors costs.
+ Errors: as in sg.h. "similarity" is in (1 + e + beta + sqrt(l e) + 2^-24 l) 2^-24 of the weight for e = -ln of it and
+ l = beta times the smaller sharpness: what rounding of the logarithm and of unit vectors costs.
  Out of finite input (unit vectors, sharpness of any size, depths and guides up to 1e18) comes no NaN and no infinity.
 
  Functions:
@@ -86,11 +86,10 @@ typedef struct bilateral_asg {
 
 /* ---- private helpers ---- */
 
-/* log2 x for x from 2^-126, which counts as at most 1: then 0.   [bound lobe_bilateral_log2 abs 4e-7] */
+/* log2 x for x from 2^-126; exactly 0 at 1. Error in max(1, |log2 x| / 4).   [bound lobe_bilateral_log2 abs 6e-7] */
 LOBE_INLINE float lobe_bilateral_log2(float x) {
     int bits, power;
     float f, f2, slope;
-    x = lobe_at_most(x, 1);
     memcpy(&bits, &x, sizeof bits);
     power = (bits - 0x3F3504F3) & ~0x007FFFFF; /* as lobe_log */
     bits -= power;
@@ -108,10 +107,10 @@ LOBE_INLINE float lobe_bilateral_power(float x, int n) {
     return (n & 1 ? x : 1) * (n & 2 ? x2 : 1) * ((n & 4 ? x4 : 1) * (n & 8 ? x8 : 1));
 }
 
-/* The overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj), so much too large that it is at least 1 for equal
-   ones. */
+/* The overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj). A little too large, but at most 1, so that
+   it is 1 for equal ones. */
 LOBE_INLINE float lobe_bilateral_overlap(float ti, float tj, float inverse) {
-    return 4.00000191f * (ti * inverse) * (tj * inverse);
+    return lobe_at_most(4.00000191f * (ti * inverse) * (tj * inverse), 1);
 }
 
 LOBE_API float lobe_bilateral_width(float sharpness) {
@@ -183,9 +182,9 @@ LOBE_API float bilateral_gaussian_weight(float mi, float vi, float mj, float vj,
    returns    q^beta
 
    Rounding: <= 12 similarity   [bound bilateral_sg_weight similarity 12 over 1e-8 1e10]
-   Model:    against bilateral_sg_mixture_weight of one lobe each: within .02 for beta 20 and a sharpness of 10 or more of
-             both, .002 from 100 on   [bound bilateral_sg_weight model .02 over 10 1e5]
-             [bound bilateral_sg_weight sharp .002 over 100 1e6]
+   Model:    against bilateral_sg_mixture_weight of one lobe each and for beta 20: within .02 for a sharpness of 10 or
+             more of both, .002 from 100 on
+             [bound bilateral_sg_weight model .02 over 10 1e5] [bound bilateral_sg_weight sharp .002 over 100 1e6]
    Source:   004, Eq. 12: (4 li lj / (li + lj)^2)^(beta / 2) times an SG of sharpness beta li lj / (li + lj)
 */
 LOBE_API float bilateral_sg_weight(sg_lobe i, sg_lobe j, float beta) {
@@ -224,8 +223,7 @@ LOBE_API float lobe_bilateral_top(const sg_lobe *lobes, int count) {
 /*
  bilateral_sg_mixture_weight - similarity of two sums of SGs
 
-   i, j       ni and nj lobes, 1 or more; sharpness [0, 1e30]; amplitudes matter among the lobes of one pixel, those below
-              e^-60 of its largest do not
+   i, j       ni and nj lobes, 1 or more; sharpness [0, 1e30]; amplitudes matter among the lobes of one pixel
    returns    q^beta
 
    Rounding: <= 40 similarity, with no l   [bound bilateral_sg_mixture_weight similarity 40 over 1e-3 1e5]
@@ -320,7 +318,8 @@ LOBE_INLINE float lobe_bilateral_sg_exponent(bilateral_sg i, bilateral_sg j, flo
    returns    bilateral_sg_weight times 2^exponent
 
    Rounding: <= 12 similarity, of _tap_power 3 beta 2^-24 of the largest weight besides
-             [bound bilateral_sg_tap similarity 12 over 1e-8 1e10] [bound bilateral_sg_taps similarity 12 over 1e-8 1e10]
+             [bound bilateral_sg_tap similarity 12 over 1e-8 1e10]
+             [bound bilateral_sg_taps similarity 12 over 1e-8 1e10]
              [bound bilateral_sg_tap_power similarity 12 over 1e-8 1e10]
    Model:    as bilateral_sg_weight
    Source:   004, Eq. 12, with widths 1 / li, so that only their sum is divided by
@@ -366,41 +365,48 @@ typedef struct lobe_bilateral_pair {
 
 LOBE_INLINE lobe_bilateral_pair lobe_bilateral_pair_of(bilateral_sg_part a, bilateral_sg_part b) {
     lobe_bilateral_pair p;
-    float sum = a.sharpness + b.sharpness, squared = sum * sum;
+    float sum = a.sharpness + b.sharpness;
     float lost = a.sharpness * b.sharpness * lobe_bilateral_squared(a.axis, b.axis);
-    float size = sqrtf(squared - lost), both = size + sum, inverse = 1 / (size * both);
+    float size = sqrtf(sum * sum - lost), both = size + sum, inverse = 1 / (size * both);
     p.exponent = lost * (inverse * size);
     p.factor = a.amplitude * b.amplitude * (both * inverse);
     p.tail = a.tail * b.tail;
     return p;
 }
 
-/* 2^-x = power * (even + odd) for x in [0, 125], 2^x = inverse * (even - odd), to 1e-7 */
-typedef struct lobe_bilateral_exp2 {
-    float power, inverse, even, odd;
-} lobe_bilateral_exp2;
-
-LOBE_INLINE lobe_bilateral_exp2 lobe_bilateral_exp2_of(float x) {
-    lobe_bilateral_exp2 e;
-    float r, r2;
-    int k;
-    unsigned u;
+/* 2^-x = 2^(whole - 127) 2^r for x in [0, 125]; returns whole, from 2 to 127. */
+LOBE_INLINE int lobe_bilateral_split(float x, float *r) {
+    int whole;
     x = lobe_at_most(x, 125);
-    k = (int)(127.5f - x);
-    r = (127 - (float)k) - x;
-    u = (unsigned)k << 23;
-    memcpy(&e.power, &u, sizeof u);
-    u = 0x7F000000u - u;
-    memcpy(&e.inverse, &u, sizeof u);
-    r2 = r * r;
-    e.even = 1 + r2 * (0.240222346f + r2 * 0.0096718776f);
-    e.odd = r * (0.693147215f + r2 * (0.0555030847f + r2 * 0.00134072204f));
-    return e;
+    whole = (int)(127.5f - x);
+    *r = (127 - (float)whole) - x;
+    return whole;
 }
 
+LOBE_INLINE float lobe_bilateral_power_of_2(unsigned whole) {
+    float power;
+    whole <<= 23;
+    memcpy(&power, &whole, sizeof power);
+    return power;
+}
+
+/* Without a tail; 2^r to 1e-7 */
+LOBE_INLINE float lobe_bilateral_sharp_value(float exponent, float factor) {
+    float r;
+    int whole = lobe_bilateral_split(exponent, &r);
+    r = 1 + r * (0.693147215f + r * (0.240222346f + r * (0.0555030847f + r * (0.0096718776f + r * 0.00134072204f))));
+    return factor * (lobe_bilateral_power_of_2((unsigned)whole) * r);
+}
+
+/* The same polynomial, even and odd, gives 2^-r too. */
 LOBE_INLINE float lobe_bilateral_pair_value(lobe_bilateral_pair p) {
-    lobe_bilateral_exp2 e = lobe_bilateral_exp2_of(p.exponent);
-    return p.factor * (e.power * (e.even + e.odd) - p.tail * (e.inverse * (e.even - e.odd)));
+    float r, r2, even, odd, value;
+    int whole = lobe_bilateral_split(p.exponent, &r);
+    r2 = r * r;
+    even = 1 + r2 * (0.240222346f + r2 * 0.0096718776f);
+    odd = r * (0.693147215f + r2 * (0.0555030847f + r2 * 0.00134072204f));
+    value = lobe_bilateral_power_of_2((unsigned)whole) * (even + odd);
+    return p.factor * (value - p.tail * (lobe_bilateral_power_of_2((unsigned)(254 - whole)) * (even - odd)));
 }
 
 /*
@@ -461,11 +467,11 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
              Of opposed equal lobes of sharpness below 1, whose L is nearly 0, within .01
              [bound bilateral_sg_mixture_tap opposed .01 over .015625 1]
    Model:    exact, but for lobes of sharpness below 1/64: q within .015   [bound bilateral_sg_mixture_tap wide .015]
-   Source:   004, Eq. 11, with exp(-L) sinh L as a difference of exponentials, the second from the first's polynomial. Where
-             one of two lobes is of sharpness 16 or more, it is 0.
+   Source:   004, Eq. 11, with exp(-L) sinh L as a difference of exponentials, the second by the first's polynomial; 0
+             where one of two lobes is of sharpness 16 or more
 */
 LOBE_INLINE float bilateral_sg_mixture_tap(float exponent, float product, float beta) {
-    return lobe_exp2(exponent + beta * lobe_bilateral_log2(lobe_at_least(product, LOBE_TINY)));
+    return lobe_exp2(exponent + beta * lobe_bilateral_log2(lobe_at_most(lobe_at_least(product, LOBE_TINY), 1)));
 }
 
 LOBE_INLINE bilateral_sg_part lobe_bilateral_part(const float *const *planes, int x) {
@@ -496,40 +502,45 @@ LOBE_API unsigned lobe_bilateral_tails(int count, int lobes, const float *const 
 
 LOBE_API void bilateral_sg_mixture_taps(int count, int lobes, const float *const *i, const float *const *j, float beta,
                                         float *weight) {
-    float stage[4][LOBE_BILATERAL_BLOCK];
+    float product[LOBE_BILATERAL_BLOCK], exponent[LOBE_BILATERAL_BLOCK], factor[LOBE_BILATERAL_BLOCK];
     int from, x, l, m;
     for (from = 0; from < count; from += LOBE_BILATERAL_BLOCK) {
         int n = count - from < LOBE_BILATERAL_BLOCK ? count - from : LOBE_BILATERAL_BLOCK;
         unsigned tails_i = lobe_bilateral_tails(n, lobes, i, from), tails_j = lobe_bilateral_tails(n, lobes, j, from);
-        for (x = 0; x < n; x++) stage[0][x] = 0;
+        for (x = 0; x < n; x++) product[x] = 0;
         for (l = 0; l < lobes; l++) {
             for (m = 0; m < lobes; m++) {
                 for (x = 0; x < n; x++) {
                     lobe_bilateral_pair p = lobe_bilateral_pair_of(lobe_bilateral_part(i + 6 * l, from + x),
                                                                    lobe_bilateral_part(j + 6 * m, from + x));
-                    stage[1][x] = p.exponent;
-                    stage[2][x] = p.factor;
+                    exponent[x] = p.exponent;
+                    factor[x] = p.factor;
                 }
                 if (tails_i >> l & tails_j >> m & 1) {
                     const float *tail_i = i[6 * l + 5] + from, *tail_j = j[6 * m + 5] + from;
                     for (x = 0; x < n; x++) {
                         lobe_bilateral_pair p;
-                        p.exponent = stage[1][x];
-                        p.factor = stage[2][x];
+                        p.exponent = exponent[x];
+                        p.factor = factor[x];
                         p.tail = tail_i[x] * tail_j[x];
-                        stage[0][x] += lobe_bilateral_pair_value(p);
+                        product[x] += lobe_bilateral_pair_value(p);
                     }
                 } else {
                     for (x = 0; x < n; x++) {
-                        lobe_bilateral_exp2 e = lobe_bilateral_exp2_of(stage[1][x]);
-                        stage[0][x] += stage[2][x] * (e.power * (e.even + e.odd));
+                        product[x] += lobe_bilateral_sharp_value(exponent[x], factor[x]);
                     }
                 }
             }
         }
-        for (x = 0; x < n; x++) stage[0][x] = beta * lobe_bilateral_log2(lobe_at_least(stage[0][x], LOBE_TINY));
-        for (x = 0; x < n; x++) weight[from + x] = lobe_exp2(weight[from + x] + stage[0][x]);
+        for (x = 0; x < n; x++)
+            product[x] = beta * lobe_bilateral_log2(lobe_at_most(lobe_at_least(product[x], LOBE_TINY), 1));
+        for (x = 0; x < n; x++) weight[from + x] = lobe_exp2(weight[from + x] + product[x]);
     }
+}
+
+/* log2 of q from the square of its factor and its exponent, at most 0 */
+LOBE_INLINE float lobe_bilateral_asg_exponent(float square, float exponent) {
+    return -lobe_at_least(-0.5f * lobe_bilateral_log2(square) - LOBE_LOG2E * exponent, 0);
 }
 
 LOBE_INLINE asg_lobe lobe_bilateral_asg(bilateral_asg p) {
@@ -573,7 +584,7 @@ LOBE_API bilateral_asg bilateral_asg_prepare(asg_lobe a) {
     p.z = a.z;
     p.sharpness_x = a.sharpness_x;
     p.sharpness_y = a.sharpness_y;
-    p.own_scale = 1.000001f / (mean * sqrtf(square));
+    p.own_scale = 1.000001f / (mean * sqrtf(square)); /* a little more: q of equal lobes is to reach 1 */
     p.own_exponent = 0.5f * m.tau;
     return p;
 }
@@ -586,7 +597,7 @@ LOBE_API bilateral_asg bilateral_asg_prepare(asg_lobe a) {
    weight     count exponents, which become weights
    returns    bilateral_asg_weight times 2^exponent
 
-   Rounding: of q, 2e-6 relative between them   [bound bilateral_asg_taps rel 2e-6 over 1e-2 1e6]
+   Rounding: of q, 4e-6 from that and between them   [bound bilateral_asg_taps rel 4e-6 over 1e-3 1e6]
    Model:    as bilateral_asg_weight
    Source:   004, Eq. 13
 */
@@ -594,63 +605,66 @@ LOBE_INLINE float bilateral_asg_tap(float exponent, bilateral_asg i, bilateral_a
     lobe_asg_means m = lobe_asg_means_of(lobe_asg_pair_of(lobe_bilateral_asg(i), lobe_bilateral_asg(j)));
     float square, mean = lobe_asg_clamped_mean(m, &square);
     float ratio = mean * mean * square * (i.own_scale * j.own_scale);
-    float similar = 0.34657359f * lobe_bilateral_log2(ratio) + (m.tau - (i.own_exponent + j.own_exponent));
-    return lobe_exp2(exponent - LOBE_LOG2E * beta * lobe_at_least(-similar, 0));
+    return lobe_exp2(exponent + beta * lobe_bilateral_asg_exponent(ratio, m.tau - (i.own_exponent + j.own_exponent)));
 }
 
 LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *const *j, float beta, float *weight) {
-    float stage[11][LOBE_BILATERAL_BLOCK];
+    /* an array each, not one of arrays: clang does not see that something used so often is not the planes */
+    float trace[LOBE_BILATERAL_BLOCK], m2[LOBE_BILATERAL_BLOCK], det[LOBE_BILATERAL_BLOCK];
+    float quad_a[LOBE_BILATERAL_BLOCK], quad_b[LOBE_BILATERAL_BLOCK], cosine[LOBE_BILATERAL_BLOCK];
+    float adj_aa[LOBE_BILATERAL_BLOCK], adj_bb[LOBE_BILATERAL_BLOCK], adj_ab[LOBE_BILATERAL_BLOCK];
+    float square[LOBE_BILATERAL_BLOCK], exponent[LOBE_BILATERAL_BLOCK];
     int from, x;
     for (from = 0; from < count; from += LOBE_BILATERAL_BLOCK) {
         int n = count - from < LOBE_BILATERAL_BLOCK ? count - from : LOBE_BILATERAL_BLOCK;
         for (x = 0; x < n; x++) {
             bilateral_asg a = lobe_bilateral_asg_at(i, from + x), b = lobe_bilateral_asg_at(j, from + x);
             lobe_asg_pair k = lobe_asg_pair_of(lobe_bilateral_asg(a), lobe_bilateral_asg(b));
-            stage[0][x] = k.trace;
-            stage[1][x] = k.m2;
-            stage[2][x] = k.det;
-            stage[3][x] = k.quad_a;
-            stage[4][x] = k.quad_b;
-            stage[5][x] = k.adj_aa;
-            stage[6][x] = k.adj_bb;
-            stage[7][x] = k.adj_ab;
-            stage[8][x] = k.cosine;
-            stage[9][x] = a.own_scale * b.own_scale;
-            stage[10][x] = a.own_exponent + b.own_exponent;
+            trace[x] = k.trace;
+            m2[x] = k.m2;
+            det[x] = k.det;
+            quad_a[x] = k.quad_a;
+            quad_b[x] = k.quad_b;
+            adj_aa[x] = k.adj_aa;
+            adj_bb[x] = k.adj_bb;
+            adj_ab[x] = k.adj_ab;
+            cosine[x] = k.cosine;
+            square[x] = a.own_scale * b.own_scale;
+            exponent[x] = a.own_exponent + b.own_exponent;
         }
         for (x = 0; x < n; x++) {
             lobe_asg_pair k;
             lobe_asg_means m;
-            k.trace = stage[0][x];
-            k.m2 = stage[1][x];
-            k.det = stage[2][x];
-            k.quad_a = stage[3][x];
-            k.quad_b = stage[4][x];
-            k.adj_aa = stage[5][x];
-            k.adj_bb = stage[6][x];
-            k.adj_ab = stage[7][x];
-            k.cosine = stage[8][x];
+            k.trace = trace[x];
+            k.m2 = m2[x];
+            k.det = det[x];
+            k.quad_a = quad_a[x];
+            k.quad_b = quad_b[x];
+            k.adj_aa = adj_aa[x];
+            k.adj_bb = adj_bb[x];
+            k.adj_ab = adj_ab[x];
+            k.cosine = cosine[x];
             m = lobe_asg_means_of(k);
-            stage[0][x] = m.ab;
-            stage[1][x] = m.aa;
-            stage[2][x] = m.bb;
-            stage[3][x] = m.scale;
-            stage[10][x] = m.tau - stage[10][x];
+            adj_ab[x] = m.ab;
+            adj_aa[x] = m.aa;
+            adj_bb[x] = m.bb;
+            det[x] = m.scale;
+            exponent[x] = m.tau - exponent[x];
         }
         for (x = 0; x < n; x++) {
             lobe_asg_means m;
-            float square, mean;
+            float scale, mean;
             m.tau = 0;
-            m.ab = stage[0][x];
-            m.aa = stage[1][x];
-            m.bb = stage[2][x];
-            m.scale = stage[3][x];
-            mean = lobe_asg_clamped_mean(m, &square);
-            stage[9][x] *= mean * mean * square;
+            m.ab = adj_ab[x];
+            m.aa = adj_aa[x];
+            m.bb = adj_bb[x];
+            m.scale = det[x];
+            mean = lobe_asg_clamped_mean(m, &scale);
+            square[x] *= mean * mean * scale;
         }
         for (x = 0; x < n; x++) {
-            float similar = 0.34657359f * lobe_bilateral_log2(stage[9][x]) + stage[10][x];
-            weight[from + x] = lobe_exp2(weight[from + x] - LOBE_LOG2E * beta * lobe_at_least(-similar, 0));
+            float similar = lobe_bilateral_asg_exponent(square[x], exponent[x]);
+            weight[from + x] = lobe_exp2(weight[from + x] + beta * similar);
         }
     }
 }
@@ -663,7 +677,8 @@ LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *
 
    Rounding: q the same either way round within 4e-6, and falls without steps above 2e-6 as lobes turn
              [bound bilateral_asg_weight symmetric 4e-6] [bound bilateral_asg_weight monotone 2e-6]
-   Model:    that of asg_product_integral: q within .0125   [bound bilateral_asg_weight model .0125 over .1 1e5]
+   Model:    that of asg_product_integral: q within .0125, RMS .001
+             [bound bilateral_asg_weight model .0125 over .1 1e5] [bound bilateral_asg_weight rms .001 over .1 1e5]
    Source:   004, Eq. 13
 */
 LOBE_API float bilateral_asg_weight(asg_lobe i, asg_lobe j, float beta) {
@@ -687,8 +702,8 @@ LOBE_API float lobe_bilateral_log_energy(sg_lobe g) {
    Rounding: sharpness of three lobes within 5e-5 relative, axis within 8e-7, integral within 4e-6
              [bound bilateral_merge sharpness 5e-5 over 1e-3 1e8] [bound bilateral_merge axis 8e-7]
              [bound bilateral_merge integral 4e-6]
-   Model:    lengths are Toksvig's l / (l + 1) both ways, see sg_mean_length: of lobes of sharpness 10 or more within 1 of
-             one direction the mean's length is within .08 of the sum's   [bound bilateral_merge model .08 over 10 1e6]
+   Model:    lengths are Toksvig's l / (l + 1) both ways, see sg_mean_length: of lobes of sharpness 10 or more within an
+             angle of 1 the mean's length is within .08 of the sum's   [bound bilateral_merge model .08 over 10 1e6]
    Source:   Toksvig 2005, which 004 names; as vsgl_cluster_merge, which stays exact at high sharpness
 */
 LOBE_API sg_lobe bilateral_merge(const sg_lobe *lobes, int count) {
@@ -753,8 +768,7 @@ LOBE_API void bilateral_pairs_add(int count, const float *weight, int channels, 
    x, y           in pixels of the image sampled, whose centres are at whole numbers
    width, height  of it, up to 2^20
    left, top      the first tap's pixel, from -1 on; the others are right of it, below, and both
-   weight         of (left, top), (left + 1, top), (left, top + 1), (left + 1, top + 1): 0 outside the image, where their
-                  sum falls to 0 within a pixel
+   weight         of (left, top), (left + 1, top), (left, top + 1), (left + 1, top + 1); 0 of those outside the image
 
    Rounding: 2^-22   [bound bilateral_footprint abs 0x1p-22]
    Model:    exact

@@ -101,6 +101,20 @@ static void inputs_of(sg_lobe i, sg_lobe j, double beta, double inputs[9]) {
 
 /* ---- Eqs. 3, 4 and section 3 ---- */
 
+static void logarithm_matches(void) {
+    test_bound bound = bound_of("lobe_bilateral_log2", "abs");
+    unsigned bits;
+    for (bits = 0x00800000u; bits < 0x7F000000u; bits += 997) {
+        float x;
+        double input;
+        memcpy(&x, &bits, sizeof x);
+        input = (double)x;
+        test_within(&bound, (double)lobe_bilateral_log2(x), log2(input), fmax(1, 0.25 * fabs(log2(input))), &input, 1);
+    }
+    test_that(lobe_bilateral_log2(1) == 0, "the logarithm of 1", NULL, 0);
+    test_report(&bound);
+}
+
 static void guides_match(void) {
     test_bound depth = bound_of("bilateral_depth_weight", "conditioned");
     test_bound normal = bound_of("bilateral_normal_weight", "conditioned");
@@ -729,6 +743,7 @@ static void history_adds_up(void) {
 }
 
 const test_case bilateral_tests[] = {
+    {"bilateral_logarithm", logarithm_matches},
     {"bilateral_guides", guides_match},
     {"bilateral_gaussian_weight", gaussians_match},
     {"bilateral_gaussian_weight_quadrature", gaussian_is_a_product_integral},

@@ -11,6 +11,7 @@
 
 #include "../asg.h"
 #include "reference.h"
+#include "test.h"
 #include <stddef.h>
 
 /* ---- vectors and lobes in double ---- */
@@ -107,6 +108,16 @@ static inline asg_lobe lobe_around(const double z[3], double turn, double lx, do
     a.sharpness_y = (float)ly;
     a.log_amplitude = 0;
     return a;
+}
+
+/* A direction at an angle from another, in a random azimuth. */
+static inline void direction_near(test_rng *rng, const double axis[3], double angle, double out[3]) {
+    double u[3], v[3], phi = 2 * REFERENCE_PI * test_uniform(rng);
+    int k;
+    reference_frame(axis, u, v);
+    for (k = 0; k < 3; k++) {
+        out[k] = cos(angle) * axis[k] + sin(angle) * (cos(phi) * u[k] + sin(phi) * v[k]);
+    }
 }
 
 static inline sg_lobe sg_around(const double axis[3], double sharpness) {

@@ -88,7 +88,7 @@ static void usage(FILE *to) {
 }
 
 int main(int argc, char **argv) {
-    const test_case *tables[5];
+    const test_case *tables[6];
     const char *wanted = "";
     int passed = 0, failed = 0, i;
     size_t table;
@@ -97,6 +97,7 @@ int main(int argc, char **argv) {
     tables[2] = fis_tests;
     tables[3] = ggx_bound_tests;
     tables[4] = bilateral_tests;
+    tables[5] = bilateral_asg_tests;
     for (i = 1; i < argc; i++) {
         if (!strcmp(argv[i], "--help")) {
             usage(stdout);

@@ -62,5 +62,6 @@ extern const test_case asg_tests[];
 extern const test_case fis_tests[];
 extern const test_case ggx_bound_tests[];
 extern const test_case bilateral_tests[];
+extern const test_case bilateral_asg_tests[];
 
 #endif

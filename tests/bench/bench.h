@@ -43,6 +43,11 @@ typedef struct {
 extern const bench_row sg_bench[];
 extern const bench_row asg_bench[];
 extern const bench_row ggx_bound_bench[];
+extern const bench_row bilateral_bench[];
+
+/* What does not fit a row: a table of its own. */
+void bilateral_filter_bench(void);
+void bilateral_figure4(void);
 
 #define BENCH_DECLARE(name) bench_loop name##_scalar, name##_vector
 #define BENCH_FORM(text, name)                                                                                         \

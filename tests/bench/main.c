@@ -102,7 +102,11 @@ static void usage(FILE *to) {
 }
 
 int main(int argc, char **argv) {
-    static const bench_row *const tables[] = {sg_bench, asg_bench, ggx_bound_bench};
+    static const bench_row *const tables[] = {sg_bench, asg_bench, ggx_bound_bench, bilateral_bench};
+    static const struct {
+        const char *name;
+        void (*print)(void);
+    } others[] = {{"bilateral_filter", bilateral_filter_bench}, {"bilateral_figure4", bilateral_figure4}};
     const char *wanted = "";
     size_t table;
     int rows = 0, i;
@@ -125,6 +129,12 @@ int main(int argc, char **argv) {
             print(row);
             rows++;
         }
+    }
+    for (table = 0; table < sizeof others / sizeof *others; table++) {
+        if (!strstr(others[table].name, wanted)) continue;
+        test_random.state = 0;
+        others[table].print();
+        rows++;
     }
     if (!rows) {
         fprintf(stderr, "bench: no function's name contains '%s'\n", wanted);
