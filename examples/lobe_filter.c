@@ -119,7 +119,8 @@ static glossy look_phong(const surface *hit, int which) {
 }
 
 static glossy look_mixture(const surface *hit, int which) {
-    static const float lobes[3][5] = {{40, 10, 3, 0.4f, 0.4f}, {400, 100, 30, 0.4f, 0.4f}, {4000, 1000, 300, 0.4f, 0.4f}};
+    static const float lobes[3][5] = {
+        {40, 10, 3, 0.4f, 0.4f}, {400, 100, 30, 0.4f, 0.4f}, {4000, 1000, 300, 0.4f, 0.4f}};
     const float *l = lobes[which];
     (void)hit;
     return three_lobes(l[0], l[1], l[2], l[3], l[4]);
@@ -538,22 +539,7 @@ static void weigh_normals_and_alpha(const planes *all, const tap_row *row, float
     }
 }
 
-static inline bilateral_sg narrow_at(const planes *p, ptrdiff_t at) {
-    bilateral_sg g;
-    g.axis = vector_at(p, AXIS_X, at);
-    g.width = p->plane[WIDTH][at];
-    return g;
-}
-
-static void weigh_lobes(const planes *all, const tap_row *row, float beta, float *restrict weight) {
-    const planes p = *all;
-    const tap_row t = *row;
-    int x;
-    for (x = 0; x < t.count; x++)
-        weight[x] = bilateral_sg_tap(depth_exponent(&p, &t, x), narrow_at(&p, t.i + x), narrow_at(&p, t.j + x), beta);
-}
-
-/* Eq. 11 and Eq. 13, where the library runs along the row: log2 of the rest goes in, the weight comes out */
+/* By lobes the library runs along the row: log2 of the rest goes in, the weight comes out */
 static void weigh_planes(const planes *all, const tap_row *row, method m, float beta, float *restrict weight) {
     const planes p = *all;
     const tap_row t = *row;
@@ -564,7 +550,9 @@ static void weigh_planes(const planes *all, const tap_row *row, method m, float 
         i[k] = p.plane[k] + t.i;
         j[k] = p.plane[k] + t.j;
     }
-    if (m == EQ11)
+    if (m == EQ12)
+        bilateral_sg_taps(t.count, i + AXIS_X, j + AXIS_X, beta, weight);
+    else if (m == EQ11)
         bilateral_sg_mixture_taps(t.count, p.parts, i + PART, j + PART, beta, weight);
     else
         bilateral_asg_taps(t.count, i + STRETCHED, j + STRETCHED, beta, weight);
@@ -582,8 +570,6 @@ static void weigh(const planes *p, const tap_row *row, method m, const float *pa
         weigh_normals_and_alpha(p, row, weight);
         break;
     case EQ12:
-        weigh_lobes(p, row, parameter[0], weight);
-        break;
     case EQ11:
     case EQ13:
         weigh_planes(p, row, m, parameter[0], weight);
