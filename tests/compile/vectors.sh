@@ -14,10 +14,21 @@ for loops in tests/bench/*_loops.c; do
     $compiler -std=gnu99 -O3 $set $remarks -c "$loops" -o "$folder/vectors.o" 2> "$folder/vectors.txt" || {
         cat "$folder/vectors.txt" && exit 1
     }
-    for line in $(grep -n '^BENCH_LOOP(our_' "$loops" | cut -d : -f 1); do
+    for line in $(grep -n '^\(BENCH\|FILTER\)_LOOP(our_' "$loops" | cut -d : -f 1); do
         count=$((count + 1))
         if ! grep -q "^$loops:$line:.*loop vectorized\|^$loops:$line:.*vectorized loop" "$folder/vectors.txt"; then
             echo "FAILED $loops:$line is not vector code: $(sed -n "${line}p" "$loops")"
+            failed=1
+        fi
+    done
+    # the header's own loops over rows, where this file calls them
+    grep -q '^ROW_FILTER' "$loops" || continue
+    for line in $(grep -n '^ *for (x = 0; x < ' bilateral.h | cut -d : -f 1); do
+        count=$((count + 1))
+        # one that only sets zeros becomes a call of memset
+        sed -n "${line}p" bilateral.h | grep -q '= 0;$' && continue
+        if ! grep -q "bilateral.h:$line:.*loop vectorized\|bilateral.h:$line:.*vectorized loop" "$folder/vectors.txt"; then
+            echo "FAILED bilateral.h:$line is not vector code: $(sed -n "${line}p" bilateral.h)"
             failed=1
         fi
     done
