@@ -345,6 +345,7 @@ static const method_data methods[METHODS] = {
     {"lobes, Eq. 13", "beta", 1, {-6, 0}, {10, 0}},
 };
 
+/* Planes. Guides of one method at a time. */
 enum {
     RED,
     GREEN,
