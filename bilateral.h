@@ -445,7 +445,7 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
     for (l = 0; l < count; l++) {
         for (m = 0; m < count; m++) own += bilateral_sg_pair(parts[l], parts[m]);
     }
-    scale = sqrtf(1.00001f / own); /* a little more: q of equal mixtures is to reach 1 */
+    scale = sqrtf(1.000002f / own); /* a little more: q of equal mixtures is to reach 1 */
     for (l = 0; l < count; l++) parts[l].amplitude *= scale;
 }
 
@@ -462,7 +462,7 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
              [bound bilateral_sg_mixture_tap similarity 150 over 1 1e6]
              [bound bilateral_sg_mixture_tap below 500 over .015625 1]
              [bound bilateral_sg_mixture_taps similarity 150 over 1 1e6]
-             Of equal mixtures 1, but with -ffast-math within 3e-5 if they have lobes of sharpness below 1
+             Of equal mixtures it is 1, but with -ffast-math within 3e-5 of that
              Of opposed equal lobes of sharpness below 1, whose L is nearly 0, within .02
              [bound bilateral_sg_mixture_tap opposed .02 over .015625 1]
    Model:    exact, but for lobes of sharpness below 1/64: q within .015   [bound bilateral_sg_mixture_tap wide .015]
