@@ -17,7 +17,7 @@ endif
 COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS)
 
 HEADERS = sg.h asg.h fis.h ggx_bound.h bilateral.h
-EXAMPLES = vsgl glossy_plane light_culling env_lights
+EXAMPLES = vsgl glossy_plane light_culling env_lights lobe_filter
 COMMON = $(wildcard examples/common/*.c)
 TESTS = $(wildcard tests/*.c)
 FUZZ = $(patsubst tests/fuzz/%.c,%,$(wildcard tests/fuzz/*.c))
@@ -38,6 +38,7 @@ help:
 	@echo 'make glossy_plane    an example: a sphere light over a glossy plane, as SGs and as ASGs'
 	@echo 'make light_culling   an example: glossy caustics from 65,536 lights, culled with four bounding volumes'
 	@echo 'make env_lights      an example: an environment map as SG lights, ARGS="--map FILE" for one of yours'
+	@echo 'make lobe_filter     an example: filters of noisy glossy light that know the reflection lobes'
 	@echo '                     each takes ARGS="--help"'
 	@echo 'make test            compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
 	@echo 'make bench           speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'

@@ -159,6 +159,7 @@ int scene_trace(const scene *world, vec3 origin, vec3 dir, surface *hit) {
     int which = nearest(world, origin, dir, 0, &hit->distance, &hit->normal), tile = 0;
     if (which < 0) return 0;
     look = &world->shapes[which].look;
+    hit->shape = which;
     hit->position = lobe_add(origin, lobe_scale(dir, hit->distance));
     if (look->tile > 0) {
         int column = (int)floorf(hit->position.x / look->tile), row = (int)floorf(hit->position.z / look->tile);
@@ -316,5 +317,47 @@ scene scene_colonnade(float alpha) {
     world.eye.position = lobe_vector(3.9f, 1.9f, 4.2f);
     world.eye.target = lobe_vector(-0.9f, 1.1f, -0.4f);
     world.eye.field_of_view = 0.8f;
+    return world;
+}
+
+static scene gallery_walls(void) {
+    scene world;
+    const material white = plain(lobe_vector(0.5f, 0.5f, 0.5f), 0.5f, 0.3f);
+    const vec3 x = {2, 0, 0}, y = {0, 1.25f, 0}, z = {0, 0, 2};
+    memset(&world, 0, sizeof world);
+    world.center = lobe_vector(0, 1, 0);
+    add_quad(&world, white, lobe_vector(0, 0, 0), z, x);
+    add_quad(&world, white, lobe_vector(0, 2.5f, 0), x, z);
+    add_quad(&world, white, lobe_vector(0, 1.25f, -2), x, y);
+    add_quad(&world, white, lobe_vector(0, 1.25f, 2), y, x);
+    add_quad(&world, white, lobe_vector(-2, 1.25f, 0), y, z);
+    add_quad(&world, white, lobe_vector(2, 1.25f, 0), z, y);
+    aim(&world, lobe_vector(0, 2.4f, 0), lobe_vector(0, 0, 0), 10, 0.8f);
+    return world;
+}
+
+static void add_ball(scene *world, float radius, vec3 center) {
+    add(world, SHAPE_SPHERE, plain(lobe_vector(0.3f, 0.3f, 0.3f), 0.7f, 0.2f), center)->radius = radius;
+}
+
+scene scene_gallery(void) {
+    scene world = gallery_walls();
+    add_ball(&world, 0.42f, lobe_vector(-0.95f, 0.42f, -0.35f));
+    add_ball(&world, 0.36f, lobe_vector(0, 0.36f, -0.1f));
+    add_ball(&world, 0.3f, lobe_vector(0.85f, 0.3f, 0.1f));
+    world.eye.position = lobe_vector(0.1f, 1.55f, 3.1f);
+    world.eye.target = lobe_vector(0, 0.25f, 0.1f);
+    world.eye.field_of_view = 0.65f;
+    return world;
+}
+
+scene scene_spheres(void) {
+    scene world = gallery_walls();
+    int i;
+    for (i = 0; i < 6; i++)
+        add_ball(&world, 0.34f, lobe_vector((float)(i % 3 - 1) * 0.7f, 1.25f + (i < 3 ? 0.36f : -0.36f), 0));
+    world.eye.position = lobe_vector(0, 1.25f, 3.2f);
+    world.eye.target = lobe_vector(0, 1.25f, 0);
+    world.eye.field_of_view = 0.5f;
     return world;
 }

@@ -59,6 +59,7 @@ typedef struct {
     vec3 position, normal;
     finish look;
     float distance;
+    int shape; /* index of it */
 } surface;
 
 /* The scene of the examples: a room with coloured walls, a glossy tiled floor and a metal ring under a spot light. */
@@ -69,6 +70,12 @@ scene scene_ring(float alpha);
 
 /* Two rows of columns on a marble floor, both of that roughness, in a hall with a low light. */
 scene scene_colonnade(float alpha);
+
+/* A room for reflections: walls that are shapes 0 to GALLERY_WALLS - 1, in that order, then spheres: three on the floor,
+   or six that fill the picture. */
+enum { GALLERY_FLOOR, GALLERY_CEILING, GALLERY_BACK, GALLERY_FRONT, GALLERY_LEFT, GALLERY_RIGHT, GALLERY_WALLS };
+scene scene_gallery(void);
+scene scene_spheres(void);
 
 /* The nearest surface along a ray; 0 if there is none, and then only the distance is set, to SCENE_FAR. */
 #define SCENE_FAR 1e30f
