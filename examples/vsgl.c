@@ -1,10 +1,11 @@
 /*
  vsgl.c - one-bounce glossy indirect light from virtual spherical Gaussian lights
 
- The pipeline of Tokuyoshi 2016, Modified Filtered Importance Sampling for Virtual Spherical Gaussian Lights: a
- reflective shadow map, its moments and PDF as pyramids, filtered importance sampling of clusters, a virtual SG light
- for each, a small shadow map for each, and closed-form shading. Krivanek and Colbert's mip level (density) and the
- paper's (bisection) are compared with path tracing.
+ The pipeline and the experiment of Tokuyoshi 2016, Modified Filtered Importance Sampling for Virtual Spherical Gaussian
+ Lights (paper 002): RSM rendering, PDF building, VSGL generation, shadow map rendering and shading. Lights are generated
+ by filtered importance sampling with the kernel sizes of Krivanek and Colbert, of the paper and of fis.h, by cells of
+ equal mass, and by k-means; for three PDFs. All are compared with path tracing, and over frames for their flicker. With
+ an RSM from files instead, the lights are written as text.
 */
 #include "../asg.h"
 #include "../fis.h"
@@ -18,183 +19,121 @@
 #include "common/path_trace.h"
 #include "common/progress.h"
 #include "common/shadow_map.h"
+#include "common/vpl.h"
+#include "common/vsgl_generate.h"
+#include "common/vsgl_inspect.h"
+#include "common/vsgl_shade.h"
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-enum { RSM_SIZE = 512, CHANNELS = sizeof(vsgl_moments) / sizeof(float), BISECTIONS = 12, REPEATS = 5 };
+enum {
+    RSM_SIZE = 512,
+    PICKS = 8,            /* view lights that each texel of the RSM takes for the noisy PDF */
+    REPEATS = 9,          /* of timings */
+    KERNELS_SHOWN = 256,  /* in a panel */
+    FINEST_LIGHTS = 8192, /* of what flicker is compared with */
+    RECEIVER_STEP = 4,    /* flicker is looked at in pixels this many times as large */
+    MAX_ROWS = METHODS * OPTIONS_MAX_LIST * OPTIONS_MAX_LIST
+};
 
 const char *const program_name = "vsgl";
 
-typedef enum { RULE_DENSITY, RULE_BISECTION, RULES } level_rule;
-static const char *const rule_names[RULES] = {"density", "bisection"};
+typedef enum {
+    PDF_FLUX, /* reflected flux */
+    PDF_BRSM, /* times the importance for the camera: by view lights, which the G-buffer's texels are clustered into */
+    PDF_NOISE, /* the same from a few view lights, drawn anew for each texel and frame */
+    PDFS
+} pdf_kind;
+static const char *const pdf_names[PDFS] = {"flux", "brsm", "noise"};
+static const char *const pdf_choices[] = {"all", "flux", "brsm", "noise", NULL};
+static const char *const scene_choices[] = {"room", "caustic", NULL};
+
+typedef struct {
+    int scene, pdf, method;
+    option_size size, view;
+    option_list lights, kernels;
+    option_place light;
+    int view_lights, frames, samples, seed;
+    const char *out, *rsm;
+} settings;
+
+static method chosen_method(const settings *o) {
+    return (method)(o->method - 1);
+}
 
 /* ---- the stages, in the paper's order ---- */
 
-/* The moments of each RSM texel, one virtual point light, and the PDF: reflected flux. */
-static void find_moments(const scene *world, const buffer *rsm, vsgl_moments *moments, float *density) {
-    int row;
-    PARALLEL_FOR
-    for (row = 0; row < rsm->height; row++) {
-        int column;
-        for (column = 0; column < rsm->width; column++) {
-            const int i = row * rsm->width + column;
-            const texel *t = &rsm->texels[i];
-            vec3 none = {0, 0, 0}, diffuse, specular;
-            diffuse = t->valid ? vec3_multiply(t->flux, t->hit.look.diffuse) : none;
-            specular = t->valid ? vec3_multiply(t->flux, t->hit.look.specular) : none;
-            density[i] = lobe_mean(diffuse) + lobe_mean(specular);
-            if (density[i] > 0)
-                moments[i] = vsgl_moments_from_vpl(lobe_sub(t->hit.position, world->center), t->hit.normal, t->view,
-                                                   diffuse, specular, t->hit.look.alpha);
-            else
-                memset(&moments[i], 0, sizeof moments[i]);
-        }
-    }
+static scene choose_scene(const settings *o) {
+    return o->scene == 0 ? scene_room() : scene_ring(0.1f);
 }
 
-/* One light for each filtered sample. */
-static void sample_lights(const scene *world, const fis_pyramid *moments, const fis_pyramid *pdf, level_rule rule,
-                          int count, unsigned seed, vsgl *lights) {
-    const float shift_u = (float)(seed * 0x9E3779B1u >> 8) / 16777216.0f;
-    const float shift_v = (float)(seed * 0x85EBCA77u >> 8) / 16777216.0f;
+static vpl_map render_rsm(const scene *world) {
+    buffer rsm = buffer_rsm(world, RSM_SIZE);
+    vpl_map map;
+    if (!rsm.texels) give_up("RSM", "not enough memory");
+    map = vpl_map_create(&rsm, world->center);
+    buffer_free(&rsm);
+    return map;
+}
+
+/* The camera's G-buffer, as texels that reflect its importance */
+static vpl_map render_view(const scene *world, option_size size) {
+    buffer view = buffer_camera(world, size.width, size.height);
+    vpl_map map;
+    if (!view.texels) give_up("G-buffer", "not enough memory");
+    map = vpl_map_create(&view, world->center);
+    buffer_free(&view);
+    return map;
+}
+
+static int texel_count(const vpl_map *map) {
+    return map->width * map->height;
+}
+
+/* Reflectance in a G-buffer, reflected flux in an RSM */
+static float *weights_of(const vpl_map *map) {
+    float *weights = (float *)allocate("PDF", (size_t)texel_count(map), sizeof *weights);
     int i;
-    for (i = 0; i < count; i++) {
-        fis_point point = fis_lattice(i, count);
-        fis_sample where;
-        vsgl_moments cluster;
-        float level, scale;
-        point.u = point.u + shift_u < 1 ? point.u + shift_u : point.u + shift_u - 1;
-        point.v = point.v + shift_v < 1 ? point.v + shift_v : point.v + shift_v - 1;
-        where = fis_warp(pdf, point);
-        if (rule == RULE_DENSITY) {
-            level = fis_level_density(pdf, &where, count, 1);
-            scale = fis_scale_density(pdf, &where, count);
-        } else {
-            level = fis_level_bisect(pdf, &where, count, 1, BISECTIONS);
-            scale = fis_scale(pdf, &where, level, count);
-        }
-        fis_fetch(moments, where.u, where.v, level, (float *)&cluster);
-        lights[i] = vsgl_from_moments(vsgl_moments_scale(cluster, scale), world->center);
-    }
+    for (i = 0; i < texel_count(map); i++) weights[i] = vpl_weight(&map->texels[i]);
+    return weights;
+}
+
+/* PDF building on the RSM. By the bidirectional method it is what each texel contributes to the view: view lights cast
+   the camera's importance on it, without shadows, and it reflects some towards the light. */
+static float *build_pdf(const vpl_map *rsm, const light_set *view_lights, pdf_kind kind, unsigned seed) {
+    float *pdf = weights_of(rsm);
+    vec3 *importance;
+    int i;
+    if (kind == PDF_FLUX) return pdf;
+    importance = (vec3 *)allocate("PDF", (size_t)texel_count(rsm), sizeof *importance);
+    if (kind == PDF_BRSM)
+        vsgl_shade(rsm, view_lights->lights, NULL, view_lights->count, importance, "PDF");
+    else
+        vsgl_shade_by_few(rsm, view_lights->lights, view_lights->count, PICKS, seed, importance);
+    for (i = 0; i < texel_count(rsm); i++) pdf[i] = lobe_mean(importance[i]);
+    free(importance);
+    return pdf;
+}
+
+/* VSGL generation on the G-buffer, by its reflectance */
+static light_set generate_view_lights(const vpl_map *view, const settings *o) {
+    generator g = generator_create(view->width, view->height, o->view_lights);
+    light_set set = light_set_create(o->view_lights);
+    float *reflectance = weights_of(view);
+    vsgl_generate(&g, view, reflectance, METHOD_FAST, 1, (unsigned)o->seed, &set);
+    free(reflectance);
+    generator_free(&g);
+    return set;
 }
 
 /* A shadow map at the mean of each light. Its own extent does not shade it. */
-static void find_visibility(const scene *world, const vsgl *lights, int count, shadow_map *maps) {
-    progress line = progress_begin("shadow maps", count);
+static void render_shadow_maps(const scene *world, const light_set *set, shadow_map *maps) {
+    progress line = progress_begin("shadow maps", set->count);
     int i;
     PARALLEL_FOR
-    for (i = 0; i < count; i++) {
-        shadow_map_render(&maps[i], world, lights[i].position, 0.01f + sqrtf(lights[i].variance));
-        progress_step(&line);
-    }
-    progress_end(&line);
-}
-
-enum { BLOCK = 256 };
-
-/* A run of pixels as planes: the loops over them then become vector code. */
-typedef struct {
-    float position[3][BLOCK], normal[3][BLOCK], view[3][BLOCK], alpha[BLOCK];
-    float x[3][BLOCK], y[3][BLOCK], z[3][BLOCK], sharpness_x[BLOCK], sharpness_y[BLOCK]; /* reflection lobe */
-    int texel[BLOCK];
-    float depth[BLOCK], visible[BLOCK];          /* of a light's shadow map */
-    float diffuse[3][BLOCK], specular[3][BLOCK]; /* sums over lights, per unit of reflectance */
-} pixel_block;
-
-static void store(float plane[3][BLOCK], int i, vec3 v) {
-    plane[0][i] = v.x;
-    plane[1][i] = v.y;
-    plane[2][i] = v.z;
-}
-
-static inline vec3 load(float plane[3][BLOCK], int i) {
-    return lobe_vector(plane[0][i], plane[1][i], plane[2][i]);
-}
-
-static void fill_block(pixel_block *b, const texel *pixels, int count) {
-    int i;
-    memset(b, 0, sizeof *b);
-    for (i = 0; i < count; i++) {
-        const surface *hit = &pixels[i].hit;
-        asg_lobe reflection = asg_ggx_lobe(hit->normal, pixels[i].view, hit->look.alpha);
-        if (!pixels[i].valid) continue;
-        store(b->position, i, hit->position);
-        store(b->normal, i, hit->normal);
-        store(b->view, i, pixels[i].view);
-        b->alpha[i] = hit->look.alpha;
-        store(b->x, i, reflection.x);
-        store(b->y, i, reflection.y);
-        store(b->z, i, reflection.z);
-        b->sharpness_x[i] = reflection.sharpness_x;
-        b->sharpness_y[i] = reflection.sharpness_y;
-    }
-}
-
-/* Whether each pixel sees the light; what vectorises in a loop of its own. */
-static void look_up(pixel_block *b, const shadow_map *map) {
-    const vec3 light = map->position;
-    int i;
-    for (i = 0; i < BLOCK; i++)
-        b->texel[i] = shadow_map_probe(light, load(b->position, i), load(b->normal, i), &b->depth[i]);
-    for (i = 0; i < BLOCK; i++) b->visible[i] = b->depth[i] <= map->distances[b->texel[i]] ? 1.0f : 0.0f;
-}
-
-/* Adds one component of one light to every pixel of a block. */
-static void shade_component(pixel_block *b, const vsgl *light, int k) {
-    const vsgl v = *light;
-    const vec3 intensity = v.intensity[k];
-    int i;
-    for (i = 0; i < BLOCK; i++) {
-        vec3 position = load(b->position, i), normal = load(b->normal, i);
-        asg_lobe reflection;
-        float diffuse, specular;
-        reflection.x = load(b->x, i);
-        reflection.y = load(b->y, i);
-        reflection.z = load(b->z, i);
-        reflection.sharpness_x = b->sharpness_x[i];
-        reflection.sharpness_y = b->sharpness_y[i];
-        reflection.log_amplitude = 0;
-        diffuse = b->visible[i] * vsgl_diffuse(v, k, position, normal);
-        specular = b->visible[i] * asg_vsgl_specular(v, k, position, normal, load(b->view, i), b->alpha[i], reflection);
-        b->diffuse[0][i] += diffuse * intensity.x;
-        b->diffuse[1][i] += diffuse * intensity.y;
-        b->diffuse[2][i] += diffuse * intensity.z;
-        b->specular[0][i] += specular * intensity.x;
-        b->specular[1][i] += specular * intensity.y;
-        b->specular[2][i] += specular * intensity.z;
-    }
-}
-
-static void shade_block(const texel *pixels, int count, const vsgl *lights, const shadow_map *maps, int light_count,
-                        vec3 *radiance) {
-    pixel_block block, *b = &block;
-    int i, k, light;
-    fill_block(b, pixels, count);
-    for (light = 0; light < light_count; light++) {
-        look_up(b, &maps[light]);
-        for (k = 0; k < 2; k++) {
-            if (lobe_mean(lights[light].intensity[k]) > 0) shade_component(b, &lights[light], k);
-        }
-    }
-    for (i = 0; i < count; i++) {
-        const finish *look = &pixels[i].hit.look;
-        vec3 none = {0, 0, 0};
-        radiance[i] = pixels[i].valid ? lobe_add(vec3_multiply(load(b->diffuse, i), look->diffuse),
-                                                 vec3_multiply(load(b->specular, i), look->specular))
-                                      : none;
-    }
-}
-
-/* Indirect radiance of every camera pixel. */
-static void shade(const buffer *view, const vsgl *lights, const shadow_map *maps, int light_count, image *indirect,
-                  const char *label) {
-    const int pixels = view->width * view->height, blocks = (pixels + BLOCK - 1) / BLOCK;
-    progress line = progress_begin(label, blocks);
-    int block;
-    PARALLEL_FOR
-    for (block = 0; block < blocks; block++) {
-        int first = block * BLOCK, count = pixels - first < BLOCK ? pixels - first : BLOCK;
-        shade_block(view->texels + first, count, lights, maps, light_count, indirect->pixels + first);
+    for (i = 0; i < set->count; i++) {
+        shadow_map_render(&maps[i], world, set->lights[i].position, 0.01f + sqrtf(set->lights[i].variance));
         progress_step(&line);
     }
     progress_end(&line);
@@ -217,14 +156,31 @@ static void light_directly(const scene *world, const buffer *view, image *direct
     progress_end(&line);
 }
 
-static double total_flux(const vsgl *lights, int count) {
-    double sum = 0;
-    int i, k;
-    for (i = 0; i < count; i++) {
-        for (k = 0; k < 2; k++)
-            sum += (double)lobe_mean(lights[i].intensity[k]) * (double)sg_integral(lights[i].emission[k].sharpness);
-    }
-    return sum;
+static image make_image(int width, int height) {
+    image picture = image_create(width, height);
+    if (!picture.pixels) give_up("images", "not enough memory");
+    return picture;
+}
+
+/* Indirect light by path tracing, in two halves whose difference tells the noise. */
+static image trace_reference(const scene *world, const buffer *view, const settings *o) {
+    const double started = progress_clock();
+    image reference = make_image(view->width, view->height), half = make_image(view->width, view->height);
+    double noise;
+    int i;
+    if (!path_trace_indirect(world, view, o->samples / 2, 2 * (unsigned)o->seed, reference.pixels,
+                             "reference, first half") ||
+        !path_trace_indirect(world, view, o->samples / 2, 2 * (unsigned)o->seed + 1, half.pixels,
+                             "reference, second half"))
+        give_up("reference", "not enough memory");
+    noise = image_rmse(&reference, &half) / 2;
+    for (i = 0; i < view->width * view->height; i++)
+        reference.pixels[i] = lobe_scale(lobe_add(reference.pixels[i], half.pixels[i]), 0.5f);
+    image_free(&half);
+    printf("reference: %dx%d pixels, %d paths each, %.0f ms, its own noise has an RMSE of about %.2g\n", view->width,
+           view->height, o->samples / 2 * 2, progress_clock() - started, noise);
+    fflush(stdout);
+    return reference;
 }
 
 static int ascending(const void *a, const void *b) {
@@ -237,32 +193,281 @@ static double median(double *times) {
     return times[REPEATS / 2];
 }
 
-enum { PICTURE_DIRECT, PICTURE_RESULT, PICTURE_REFERENCE, PICTURE_DIFFERENCE, PICTURE_ALL, PICTURES };
-static const char *const picture_names[PICTURES] = {"-direct.png", "-result.png", "-reference.png", "-difference.png",
-                                                    ".png"};
+/* ---- how long generation takes: tables 1 and 2 ---- */
 
-static void check_paths(const char *prefix) {
-    char path[1024];
-    int i;
-    for (i = 0; i < PICTURES; i++) {
-        const char *wrong = "name too long";
-        if (snprintf(path, sizeof path, "%s%s", prefix, picture_names[i]) < (int)sizeof path) wrong = file_check(path);
-        if (wrong) give_up(path, wrong);
+typedef struct {
+    double ms[METHODS][STAGES];
+} generation_times;
+
+/* Medians. The methods take turns, so that what else the machine does meets all of them. */
+static generation_times time_generation(const vpl_map *map, const float *pdf, int count, const settings *o,
+                                        const char *label) {
+    static double times[METHODS][STAGES][REPEATS];
+    generator g = generator_create(map->width, map->height, count);
+    light_set set = light_set_create(count);
+    progress line = progress_begin(label, REPEATS * METHODS);
+    generation_times result;
+    int i, how, stage;
+    memset(&result, 0, sizeof result);
+    for (i = -1; i < REPEATS; i++) { /* the first touches the memory */
+        for (how = 0; how < METHODS; how++) {
+            vsgl_generate(&g, map, pdf, (method)how, 1, (unsigned)o->seed, &set);
+            for (stage = 0; stage < STAGES && i >= 0; stage++) times[how][stage][i] = set.ms[stage];
+            if (i >= 0) progress_step(&line);
+        }
     }
+    progress_end(&line);
+    for (how = 0; how < METHODS; how++) {
+        for (stage = 0; stage < STAGES; stage++) result.ms[how][stage] = median(times[how][stage]);
+    }
+    light_set_free(&set);
+    generator_free(&g);
+    return result;
+}
+
+static double sum_stages(const generation_times *t, int how) {
+    return t->ms[how][0] + t->ms[how][1] + t->ms[how][2];
+}
+
+static void print_times(const generation_times *view, const generation_times *light, const char *pdf) {
+    double base = sum_stages(view, METHOD_DENSITY) + sum_stages(light, METHOD_DENSITY);
+    double fastest = sum_stages(view, METHOD_FAST) + sum_stages(light, METHOD_FAST);
+    int how;
+    printf("%-5s           G-buffer: sums/labels pyramid/sort lights      RSM: sums/labels pyramid/sort lights    total"
+           "   / fast  RSM alone\n",
+           pdf);
+    for (how = 0; how < METHODS; how++) {
+        const double *v = view->ms[how], *l = light->ms[how], total = sum_stages(view, how) + sum_stages(light, how);
+        printf("      %-9s %21.3f %12.3f %6.3f %20.3f %12.3f %6.3f %8.3f %8.2f %10.2f\n", method_names[how], v[0], v[1],
+               v[2], l[0], l[1], l[2], total, total / fastest,
+               sum_stages(light, how) / sum_stages(light, METHOD_FAST));
+    }
+    /* What comes before the kernels' sizes is the same code for both. */
+    printf("      fast over density: %+.2f %% of generation; bisection over density: %+.2f %%\n\n",
+           100 *
+               (view->ms[METHOD_FAST][STAGE_LIGHTS] - view->ms[METHOD_DENSITY][STAGE_LIGHTS] +
+                light->ms[METHOD_FAST][STAGE_LIGHTS] - light->ms[METHOD_DENSITY][STAGE_LIGHTS]) /
+               base,
+           100 *
+               (view->ms[METHOD_BISECTION][STAGE_LIGHTS] - view->ms[METHOD_DENSITY][STAGE_LIGHTS] +
+                light->ms[METHOD_BISECTION][STAGE_LIGHTS] - light->ms[METHOD_DENSITY][STAGE_LIGHTS]) /
+               base);
+    fflush(stdout);
+}
+
+static void measure_times(const vpl_map *view, const vpl_map *rsm, float *const pdfs[PDFS], const settings *o) {
+    float *reflectance = weights_of(view);
+    generation_times on_view = time_generation(view, reflectance, o->view_lights, o, "generation on the G-buffer");
+    int kind;
+    printf("generation, ms on one thread: %d lights of the %dx%d G-buffer and %d of the %dx%d RSM\n", o->view_lights,
+           view->width, view->height, o->lights.value[0], rsm->width, rsm->height);
+    for (kind = 0; kind < PDFS; kind++) {
+        generation_times on_rsm;
+        if (!pdfs[kind]) continue;
+        on_rsm = time_generation(rsm, pdfs[kind], o->lights.value[0], o, "generation on the RSM");
+        print_times(&on_view, &on_rsm, pdf_names[kind]);
+    }
+    free(reflectance);
+}
+
+/* ---- how well the lights do ---- */
+
+typedef struct {
+    method how;
+    int count;
+    float k;
+    double generation, visibility, shading, flux, firefly, rmse, relative, flicker;
+    coverage covered;
+} row;
+
+/* What is to be tried: only filtered sampling has sizes of kernels. */
+static int plan_rows(const settings *o, row *rows) {
+    int count = 0, how, i, k;
+    memset(rows, 0, MAX_ROWS * sizeof *rows);
+    for (i = 0; i < o->lights.count; i++) {
+        for (how = 0; how < METHODS; how++) {
+            if (o->method && how != (int)chosen_method(o)) continue;
+            for (k = 0; k < (method_is_filtered((method)how) ? o->kernels.count : 1); k++) {
+                rows[count].how = (method)how;
+                rows[count].count = o->lights.value[i];
+                rows[count++].k = method_is_filtered((method)how) ? (float)o->kernels.value[k] : 1;
+            }
+        }
+    }
+    return count;
+}
+
+static int most_lights(const settings *o) {
+    int i, most = 0;
+    for (i = 0; i < o->lights.count; i++) most = o->lights.value[i] > most ? o->lights.value[i] : most;
+    return most;
+}
+
+/* Generates and shades, and says in the row how well. */
+static void render(const scene *world, const vpl_map *view, const vpl_map *rsm, const float *pdf, const settings *o,
+                   row *r, const image *reference, image *indirect) {
+    generator g = generator_create(rsm->width, rsm->height, r->count);
+    light_set set = light_set_create(r->count);
+    shadow_map *maps = (shadow_map *)allocate("shadow maps", (size_t)r->count, sizeof *maps);
+    double total = 0, brightest = 0, power, started;
+    char label[64];
+    int i;
+    vsgl_generate(&g, rsm, pdf, r->how, r->k, (unsigned)o->seed, &set); /* also touches the memory */
+    vsgl_generate(&g, rsm, pdf, r->how, r->k, (unsigned)o->seed, &set);
+    r->generation = set.ms[0] + set.ms[1] + set.ms[2];
+    started = progress_clock();
+    render_shadow_maps(world, &set, maps);
+    r->visibility = progress_clock() - started;
+    started = progress_clock();
+    snprintf(label, sizeof label, "%d lights, %s", r->count, method_names[r->how]);
+    vsgl_shade(view, set.lights, maps, set.count, indirect->pixels, label);
+    r->shading = progress_clock() - started;
+    for (i = 0; i < texel_count(rsm); i++) total += (double)vpl_weight(&rsm->texels[i]);
+    for (i = 0; i < set.count; i++) {
+        power = vsgl_power(&set.lights[i]);
+        brightest = power > brightest ? power : brightest;
+    }
+    r->flux = light_set_power(&set) / total;
+    r->firefly = brightest * set.count / total;
+    r->rmse = image_rmse(indirect, reference);
+    r->relative = image_relative_error(indirect, reference);
+    if (!set.labels) r->covered = light_set_coverage(&set, pdf, rsm->width, rsm->height);
+    free(maps);
+    light_set_free(&set);
+    generator_free(&g);
+}
+
+/* Root mean square, over pixels, of how much an image's error changed since the last frame, which it replaces; over
+   sqrt 2, which makes it the standard deviation of errors that know nothing of each other */
+static double change_of_error(const image *picture, const image *truth, image *last) {
+    double sum = 0;
+    int i, count = picture->width * picture->height;
+    for (i = 0; i < count; i++) {
+        vec3 error = lobe_sub(picture->pixels[i], truth->pixels[i]), change = lobe_sub(error, last->pixels[i]);
+        sum += (double)lobe_dot(change, change);
+        last->pixels[i] = error;
+    }
+    return sqrt(sum / (6.0 * count));
+}
+
+/* Flicker of the receivers, without shadows, which would add their own. With the noisy PDF light and scene stand still
+   and all that changes is the noise. Else the light moves a centimetre each frame, which changes the truth too: that is
+   taken from lights so many and so regular that they hardly flicker. */
+static void measure_flicker(const scene *still, const light_set *view_lights, pdf_kind kind, const settings *o,
+                            row *rows, int row_count) {
+    const option_size size = {(o->size.width + RECEIVER_STEP - 1) / RECEIVER_STEP,
+                              (o->size.height + RECEIVER_STEP - 1) / RECEIVER_STEP};
+    const vpl_map view = render_view(still, size);
+    const int most = most_lights(o) > FINEST_LIGHTS ? most_lights(o) : FINEST_LIGHTS;
+    generator g = generator_create(RSM_SIZE, RSM_SIZE, most);
+    light_set set = light_set_create(most);
+    image truth = make_image(size.width, size.height), picture = make_image(size.width, size.height);
+    image *last = (image *)allocate("images", (size_t)row_count, sizeof *last);
+    progress line = progress_begin("flicker", o->frames * row_count);
+    int frame, i;
+    for (i = 0; i < row_count; i++) last[i] = make_image(size.width, size.height);
+    for (frame = 0; frame < o->frames; frame++) {
+        scene world = *still;
+        const spot_light *spot = &still->spot;
+        const vec3 step = lobe_scale(spot->right, kind == PDF_NOISE ? 0 : 0.01f * (float)frame);
+        vpl_map rsm;
+        float *pdf;
+        spot_aim(&world.spot, lobe_add(spot->position, step), lobe_add(spot->target, step));
+        rsm = render_rsm(&world);
+        if (frame == 0 || kind != PDF_NOISE) {
+            pdf = build_pdf(&rsm, NULL, PDF_FLUX, 0);
+            set.count = FINEST_LIGHTS;
+            vsgl_generate(&g, &rsm, pdf, METHOD_SPLIT, 1, 0, &set);
+            vsgl_shade(&view, set.lights, NULL, set.count, truth.pixels, "flicker");
+            free(pdf);
+        }
+        pdf = build_pdf(&rsm, view_lights, kind, (unsigned)(o->seed + frame));
+        for (i = 0; i < row_count; i++) {
+            row *r = &rows[i];
+            double change;
+            set.count = r->count;
+            vsgl_generate(&g, &rsm, pdf, r->how, r->k, (unsigned)o->seed, &set);
+            vsgl_shade(&view, set.lights, NULL, set.count, picture.pixels, "flicker");
+            change = change_of_error(&picture, &truth, &last[i]);
+            if (frame) r->flicker += change * change / (o->frames - 1);
+            progress_step(&line);
+        }
+        free(pdf);
+        free(rsm.texels);
+    }
+    progress_end(&line);
+    for (i = 0; i < row_count; i++) {
+        rows[i].flicker = sqrt(rows[i].flicker);
+        image_free(&last[i]);
+    }
+    free(last);
+    image_free(&truth);
+    image_free(&picture);
+    light_set_free(&set);
+    generator_free(&g);
+    free(view.texels);
+}
+
+static void print_percent(const row *r, double share) {
+    if (method_is_labelling(r->how))
+        printf("      - ");
+    else
+        printf(" %6.2f ", 100 * share);
+}
+
+static void print_rows(const row *rows, int count, const char *pdf) {
+    int i;
+    for (i = 0; i < count; i++) {
+        const row *r = &rows[i];
+        printf("%-5s %6d %-9s", pdf, r->count, method_names[r->how]);
+        if (method_is_filtered(r->how))
+            printf(" %2.0f", (double)r->k);
+        else
+            printf("  -");
+        printf(" %8.2f %8.1f %8.1f  ", r->generation, r->visibility, r->shading);
+        print_percent(r, r->covered.gap);
+        print_percent(r, r->covered.overlap);
+        printf("%8.2f  %8.5f %8.5f   %6.4f  %.6f\n", r->firefly, r->flicker, r->rmse, r->relative, r->flux);
+    }
+    fflush(stdout);
+}
+
+/* ---- pictures ---- */
+
+enum {
+    PICTURE_DIRECT,
+    PICTURE_RESULT,
+    PICTURE_REFERENCE,
+    PICTURE_DIFFERENCE,
+    PICTURE_ALL,
+    PICTURE_KERNELS,
+    PICTURES
+};
+static const char *const picture_names[PICTURES] = {"-direct.png",     "-result.png", "-reference.png",
+                                                    "-difference.png", ".png",        "-kernels.png"};
+
+static void check_path(const char *prefix, const char *name) {
+    char path[1024];
+    const char *wrong = "name too long";
+    if (snprintf(path, sizeof path, "%s%s", prefix, name) < (int)sizeof path) wrong = file_check(path);
+    if (wrong) give_up(path, wrong);
+}
+
+static void write_picture(const char *prefix, int which, image *picture) {
+    const float exposure = 2.2f;
+    char path[1024];
+    const char *wrong;
+    snprintf(path, sizeof path, "%s%s", prefix, picture_names[which]);
+    wrong = image_write_png(path, picture, exposure);
+    if (wrong) give_up(path, wrong);
+    image_free(picture);
 }
 
 static void write_pictures(const char *prefix, const image *direct, const image *indirect, const image *reference) {
-    const float exposure = 2.2f;
     const int width = direct->width, height = direct->height, count = width * height;
-    progress line = progress_begin("pictures", PICTURES);
-    image pictures[PICTURES];
-    char path[1024];
+    image pictures[PICTURE_ALL], all = make_image(2 * width, 2 * height);
     int i;
-    for (i = 0; i < PICTURE_ALL; i++) pictures[i] = image_create(width, height);
-    pictures[PICTURE_ALL] = image_create(2 * width, 2 * height);
-    for (i = 0; i < PICTURES; i++) {
-        if (!pictures[i].pixels) give_up("images", "not enough memory");
-    }
+    for (i = 0; i < PICTURE_ALL; i++) pictures[i] = make_image(width, height);
     for (i = 0; i < count; i++) {
         vec3 result = lobe_add(direct->pixels[i], indirect->pixels[i]);
         vec3 wanted = lobe_add(direct->pixels[i], reference->pixels[i]), d = lobe_sub(result, wanted);
@@ -271,161 +476,183 @@ static void write_pictures(const char *prefix, const image *direct, const image 
         pictures[PICTURE_REFERENCE].pixels[i] = wanted;
         pictures[PICTURE_DIFFERENCE].pixels[i] = lobe_vector(fabsf(d.x), fabsf(d.y), fabsf(d.z));
     }
-    for (i = 0; i < PICTURE_ALL; i++) image_paste(&pictures[PICTURE_ALL], &pictures[i], i % 2 * width, i / 2 * height);
-    for (i = 0; i < PICTURES; i++) {
-        const char *wrong;
-        snprintf(path, sizeof path, "%s%s", prefix, picture_names[i]);
-        wrong = image_write_png(path, &pictures[i], exposure);
-        if (wrong) give_up(path, wrong);
-        image_free(&pictures[i]);
-        progress_step(&line);
+    for (i = 0; i < PICTURE_ALL; i++) {
+        image_paste(&all, &pictures[i], i % 2 * width, i / 2 * height);
+        write_picture(prefix, i, &pictures[i]);
     }
-    progress_end(&line);
+    write_picture(prefix, PICTURE_ALL, &all);
     printf("wrote %s.png: direct, direct + indirect, reference, difference; and each alone\n", prefix);
 }
 
-/* What the RSM gives, once for any number of lights, and the milliseconds it took. */
-typedef struct {
-    float *memory[2];
-    fis_pyramid moments, pdf;
-    double flux, moments_ms, pyramid_ms;
-} lit_scene;
-
-static lit_scene prepare(const scene *world, const buffer *rsm) {
-    lit_scene lit;
-    vsgl_moments *moments = (vsgl_moments *)allocate("scene", (size_t)RSM_SIZE * RSM_SIZE, sizeof *moments);
-    float *density = (float *)allocate("scene", (size_t)RSM_SIZE * RSM_SIZE, sizeof *density);
-    double moments_ms[REPEATS], pyramid_ms[REPEATS];
+/* Figure 1: where the kernels lie, by density, by bisection, by split and by k-means in the image. */
+static void write_kernels(const vpl_map *rsm, const float *pdf, const char *pdf_name, const settings *o) {
+    static const method shown[4] = {METHOD_DENSITY, METHOD_BISECTION, METHOD_SPLIT, METHOD_KMEANS_2D};
+    generator g = generator_create(rsm->width, rsm->height, KERNELS_SHOWN);
+    light_set set = light_set_create(KERNELS_SHOWN);
+    image panel = make_image(rsm->width, rsm->height), all = make_image(2 * rsm->width, 2 * rsm->height);
     int i;
-    lit.memory[0] = (float *)allocate("scene", fis_pyramid_size(RSM_SIZE, RSM_SIZE, CHANNELS), sizeof(float));
-    lit.memory[1] = (float *)allocate("scene", fis_pyramid_size(RSM_SIZE, RSM_SIZE, 1), sizeof(float));
-    for (i = 0; i < REPEATS; i++) {
-        double started = progress_clock();
-        find_moments(world, rsm, moments, density);
-        moments_ms[i] = progress_clock() - started;
-        started = progress_clock();
-        lit.moments = fis_build(lit.memory[0], (const float *)moments, RSM_SIZE, RSM_SIZE, CHANNELS);
-        lit.pdf = fis_build_pdf(lit.memory[1], density, RSM_SIZE, RSM_SIZE);
-        pyramid_ms[i] = progress_clock() - started;
+    for (i = 0; i < 4; i++) {
+        vsgl_generate(&g, rsm, pdf, shown[i], 1, (unsigned)o->seed, &set);
+        light_set_draw(&set, pdf, &panel);
+        image_paste(&all, &panel, i % 2 * rsm->width, i / 2 * rsm->height);
     }
-    lit.moments_ms = median(moments_ms);
-    lit.pyramid_ms = median(pyramid_ms);
-    lit.flux = 0;
-    for (i = 0; i < RSM_SIZE * RSM_SIZE; i++) lit.flux += (double)density[i];
-    free(moments);
-    free(density);
-    return lit;
+    write_picture(o->out, PICTURE_KERNELS, &all);
+    printf("wrote %s%s: %d kernels on the PDF %s, by density, bisection, split and kmeans2d\n", o->out,
+           picture_names[PICTURE_KERNELS], KERNELS_SHOWN, pdf_name);
+    image_free(&panel);
+    light_set_free(&set);
+    generator_free(&g);
 }
 
-/* Renders with one rule and one number of lights, and prints the row that says how fast and how well. */
-static void render(const scene *world, const buffer *view, const lit_scene *lit, level_rule rule, int count,
-                   unsigned seed, const image *reference, image *indirect) {
-    vsgl *lights = (vsgl *)allocate("scene", (size_t)count, sizeof *lights);
-    shadow_map *maps = (shadow_map *)allocate("scene", (size_t)count, sizeof *maps);
-    double sampling_ms[REPEATS], sampling, visibility, shading, started;
-    char label[64];
-    int i;
-    for (i = 0; i < REPEATS; i++) {
-        started = progress_clock();
-        sample_lights(world, &lit->moments, &lit->pdf, rule, count, seed, lights);
-        sampling_ms[i] = progress_clock() - started;
+/* ---- an RSM from files ---- */
+
+static void write_lights(const char *path, const light_set *set) {
+    static const char *const components[2] = {"diffuse", "specular"};
+    file f;
+    const char *wrong = file_begin(&f, path);
+    int i, k;
+    if (wrong) give_up(path, wrong);
+    fprintf(f.stream, "x y z variance");
+    for (k = 0; k < 2; k++) {
+        const char *c = components[k];
+        fprintf(f.stream, " %s_axis_x %s_axis_y %s_axis_z %s_sharpness %s_red %s_green %s_blue", c, c, c, c, c, c, c);
     }
-    sampling = median(sampling_ms);
-    started = progress_clock();
-    find_visibility(world, lights, count, maps);
-    visibility = progress_clock() - started;
-    started = progress_clock();
-    snprintf(label, sizeof label, "%d lights, %s", count, rule_names[rule]);
-    shade(view, lights, maps, count, indirect, label);
-    shading = progress_clock() - started;
-    printf("%6d %-9s %7.2f %7.2f %8.3f %10.1f %8.1f %8.1f %8.5f   %6.4f   %.6f\n", count, rule_names[rule],
-           lit->moments_ms, lit->pyramid_ms, sampling, visibility, shading,
-           lit->moments_ms + lit->pyramid_ms + sampling + visibility + shading, image_rmse(indirect, reference),
-           image_relative_error(indirect, reference), total_flux(lights, count) / lit->flux);
-    fflush(stdout);
-    free(lights);
-    free(maps);
+    fprintf(f.stream, "\n");
+    for (i = 0; i < set->count; i++) {
+        const vsgl *v = &set->lights[i];
+        fprintf(f.stream, "%.9g %.9g %.9g %.9g", (double)v->position.x, (double)v->position.y, (double)v->position.z,
+                (double)v->variance);
+        for (k = 0; k < 2; k++) {
+            fprintf(f.stream, " %.9g %.9g %.9g %.9g %.9g %.9g %.9g", (double)v->emission[k].axis.x,
+                    (double)v->emission[k].axis.y, (double)v->emission[k].axis.z, (double)v->emission[k].sharpness,
+                    (double)v->intensity[k].x, (double)v->intensity[k].y, (double)v->intensity[k].z);
+        }
+        fprintf(f.stream, "\n");
+    }
+    wrong = file_end(&f);
+    if (wrong) give_up(path, wrong);
 }
 
-typedef struct {
-    option_size size;
-    option_list lights;
-    int seed, samples;
-    const char *out;
-} settings;
-
-/* Indirect light by path tracing, in two halves whose difference tells the noise. */
-static void trace_reference(const scene *world, const buffer *view, const settings *o, image *reference, image *half) {
-    const double started = progress_clock();
-    double noise;
+static void convert(const settings *o) {
+    const method how = o->method ? chosen_method(o) : METHOD_FAST;
+    const int count = o->lights.value[0];
+    const vec3 light = {o->light.x, o->light.y, o->light.z};
+    vpl_map rsm;
+    generator g;
+    light_set set;
+    float *pdf;
+    double flux = 0;
+    char path[1024];
     int i;
-    if (!path_trace_indirect(world, view, o->samples / 2, 2 * (unsigned)o->seed, reference->pixels,
-                             "reference, first half") ||
-        !path_trace_indirect(world, view, o->samples / 2, 2 * (unsigned)o->seed + 1, half->pixels,
-                             "reference, second half"))
-        give_up("reference", "not enough memory");
-    noise = image_rmse(reference, half) / 2;
-    for (i = 0; i < view->width * view->height; i++)
-        reference->pixels[i] = lobe_scale(lobe_add(reference->pixels[i], half->pixels[i]), 0.5f);
-    printf("reference: %d paths a pixel, %.0f ms, its own noise has an RMSE of about %.2g\n", o->samples / 2 * 2,
-           progress_clock() - started, noise);
-    fflush(stdout);
+    if (o->pdf > 1 + PDF_FLUX) give_up("--pdf", "without a camera there is only flux");
+    check_path(o->out, ".txt");
+    snprintf(path, sizeof path, "%s.txt", o->out);
+    rsm = vpl_map_read(o->rsm, o->light.given ? &light : NULL);
+    g = generator_create(rsm.width, rsm.height, count);
+    set = light_set_create(count);
+    pdf = weights_of(&rsm);
+    vsgl_generate(&g, &rsm, pdf, how, (float)o->kernels.value[0], (unsigned)o->seed, &set);
+    write_lights(path, &set);
+    for (i = 0; i < texel_count(&rsm); i++) flux += (double)pdf[i];
+    printf("wrote %s: %d lights by %s of %dx%d texels, %.2f ms; flux %g of %g\n", path, count, method_names[how],
+           rsm.width, rsm.height, set.ms[0] + set.ms[1] + set.ms[2], light_set_power(&set), flux);
+    free(pdf);
+    light_set_free(&set);
+    generator_free(&g);
+    free(rsm.texels);
+}
+
+/* ---- */
+
+static void compare(const settings *o) {
+    const scene world = choose_scene(o);
+    buffer seen = buffer_camera(&world, o->size.width, o->size.height);
+    const vpl_map rsm = render_rsm(&world), view = render_view(&world, o->view), pixels = render_view(&world, o->size);
+    image direct = make_image(o->size.width, o->size.height), indirect = make_image(o->size.width, o->size.height);
+    image best = make_image(o->size.width, o->size.height), reference;
+    light_set view_lights;
+    float *pdfs[PDFS] = {NULL, NULL, NULL};
+    row rows[MAX_ROWS], chosen;
+    int kind, last = 0, i;
+    if (!seen.texels) give_up("images", "not enough memory");
+    light_directly(&world, &seen, &direct);
+    reference = trace_reference(&world, &seen, o);
+    view_lights = generate_view_lights(&view, o);
+    for (kind = 0; kind < PDFS; kind++) {
+        if (o->pdf && o->pdf != 1 + kind) continue;
+        pdfs[kind] = build_pdf(&rsm, &view_lights, (pdf_kind)kind, (unsigned)o->seed);
+        last = kind;
+    }
+    measure_times(&view, &rsm, pdfs, o);
+    memset(&chosen, 0, sizeof chosen);
+    chosen.rmse = 1e30;
+    printf("times in ms, gaps and overlaps in %% of the PDF; flicker and errors are those of indirect radiance\n");
+    printf("PDF   lights method     K generation  shadows  shading     gap overlap firefly   flicker     RMSE relative "
+           "light/RSM\n");
+    for (kind = 0; kind < PDFS; kind++) {
+        int row_count = plan_rows(o, rows);
+        if (!pdfs[kind]) continue;
+        for (i = 0; i < row_count; i++) {
+            render(&world, &pixels, &rsm, pdfs[kind], o, &rows[i], &reference, &indirect);
+            if (rows[i].rmse >= chosen.rmse) continue;
+            chosen = rows[i];
+            image_paste(&best, &indirect, 0, 0);
+        }
+        measure_flicker(&world, &view_lights, (pdf_kind)kind, o, rows, row_count);
+        print_rows(rows, row_count, pdf_names[kind]);
+    }
+    printf("\n");
+    write_pictures(o->out, &direct, &best, &reference);
+    write_kernels(&rsm, pdfs[last], pdf_names[last], o);
+    for (kind = 0; kind < PDFS; kind++) free(pdfs[kind]);
+    light_set_free(&view_lights);
+    free(rsm.texels);
+    free(view.texels);
+    free(pixels.texels);
+    image_free(&direct);
+    image_free(&indirect);
+    image_free(&best);
+    image_free(&reference);
+    buffer_free(&seen);
 }
 
 int main(int argc, char **argv) {
-    settings o = {{400, 300}, {4, {64, 256, 1024, 4096}}, 0, 512, "build/vsgl"};
+    settings o = {0, 0, 0, {256, 192}, {480, 272}, {1, {1024}}, {1, {1}}, {0, 0, 0, 0}, 512, 8, 256, 0, "build/vsgl", 0};
+    const char *method_choices[METHODS + 2] = {"all"};
     const option options[] = {
+        {"--scene S", OPTION_CHOICE, &o.scene, 0, 0, "what is lit", scene_choices},
         OPTION_OF_SIZE(&o.size),
         {"--lights N,...", OPTION_LIST, &o.lights, 1, 65536, "numbers of lights to try", 0},
+        {"--method M", OPTION_CHOICE, &o.method, 0, 0, "how they are made", method_choices},
+        {"--k N,...", OPTION_LIST, &o.kernels, 1, 64, "sizes of filtered sampling's kernels, in shares of a light", 0},
+        {"--pdf P", OPTION_CHOICE, &o.pdf, 0, 0, "what they are placed by", pdf_choices},
+        {"--view WxH", OPTION_SIZE, &o.view, 16, 4096, "of the G-buffer that view lights are made of", 0},
+        {"--view-lights N", OPTION_WHOLE, &o.view_lights, 1, 65536, "that tell what the camera needs", 0},
+        {"--frames N", OPTION_WHOLE, &o.frames, 2, 1000, "that flicker is measured over", 0},
         {"--samples N", OPTION_WHOLE, &o.samples, 2, 1000000, "samples per pixel of the reference", 0},
         OPTION_OF_SEED(&o.seed),
         OPTION_OF_OUT(&o.out),
+        {"--rsm PREFIX", OPTION_TEXT, &o.rsm, 0, 0,
+         "an RSM of yours: PREFIX-position.pfm, -normal.pfm, -flux.pfm, -alpha.pfm", 0},
+        {"--light X,Y,Z", OPTION_PLACE, &o.light, -1e5, 1e5, "where its light is", 0},
         {0, OPTION_WHOLE, 0, 0, 0, 0, 0},
     };
-    const scene world = scene_room();
-    buffer view, rsm;
-    image direct, reference, indirect, best;
-    lit_scene lit;
-    int i, rule, most = 0;
-
+    int i;
+    for (i = 0; i <= METHODS; i++) method_choices[i + 1] = method_names[i];
     options_read(options, argc, argv,
-                 "Renders one-bounce glossy indirect light with virtual spherical Gaussian lights\n"
-                 "and prints its speed against its error, for two rules of filtered sampling.");
-    check_paths(o.out);
-    view = buffer_camera(&world, o.size.width, o.size.height);
-    rsm = buffer_rsm(&world, RSM_SIZE);
-    direct = image_create(o.size.width, o.size.height);
-    reference = image_create(o.size.width, o.size.height);
-    indirect = image_create(o.size.width, o.size.height);
-    best = image_create(o.size.width, o.size.height);
-    if (!view.texels || !rsm.texels || !direct.pixels || !reference.pixels || !indirect.pixels || !best.pixels)
-        give_up("images", "not enough memory");
-
-    light_directly(&world, &view, &direct);
-    trace_reference(&world, &view, &o, &reference, &indirect);
-    lit = prepare(&world, &rsm);
-    printf("%dx%d pixels, RSM %dx%d that reflects %.3f W, times in ms\n\n", o.size.width, o.size.height, RSM_SIZE,
-           RSM_SIZE, lit.flux);
-    printf("lights rule      moments pyramid sampling visibility  shading    total     RMSE relative  light/RSM\n");
-    for (i = 0; i < o.lights.count; i++) {
-        for (rule = 0; rule < RULES; rule++) {
-            render(&world, &view, &lit, (level_rule)rule, o.lights.value[i], (unsigned)o.seed, &reference, &indirect);
-            if (rule == RULE_BISECTION && o.lights.value[i] >= most) {
-                most = o.lights.value[i];
-                image_paste(&best, &indirect, 0, 0);
-            }
-        }
+                 "Renders one-bounce glossy indirect light with virtual spherical Gaussian lights (VSGL), and prints\n"
+                 "speed against error, gaps, overlaps and flicker of ways to generate them from a reflective shadow\n"
+                 "map (RSM).\n\n"
+                 "With --rsm it writes the lights of your RSM to OUT.txt instead, a line each, with columns named in\n"
+                 "the first: the first number of --lights, by --method (fast if all) and the first of --k. The four\n"
+                 "files are of one size, any: position and normal in world space, RGB flux that the texel reflects (0:\n"
+                 "nothing there), alpha of GGX. Where alpha is 1 all of the flux is reflected diffusely, elsewhere all\n"
+                 "of it specularly, away from --light.");
+    if (o.rsm) {
+        convert(&o);
+    } else {
+        for (i = 0; i < PICTURES; i++) check_path(o.out, picture_names[i]);
+        compare(&o);
     }
-    printf("\n");
-    write_pictures(o.out, &direct, &best, &reference);
-
-    free(lit.memory[0]);
-    free(lit.memory[1]);
-    image_free(&direct);
-    image_free(&reference);
-    image_free(&indirect);
-    image_free(&best);
-    buffer_free(&view);
-    buffer_free(&rsm);
     return 0;
 }
