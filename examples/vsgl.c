@@ -29,7 +29,6 @@
 
 enum {
     RSM_SIZE = 512,
-    PICKS = 8,            /* view lights that each texel of the RSM takes for the noisy PDF */
     REPEATS = 9,          /* of timings */
     KERNELS_SHOWN = 256,  /* in a panel */
     FINEST_LIGHTS = 8192, /* of what flicker is compared with */
@@ -42,11 +41,10 @@ const char *const program_name = "vsgl";
 typedef enum {
     PDF_FLUX, /* reflected flux */
     PDF_BRSM, /* times the importance for the camera: by view lights, which the G-buffer's texels are clustered into */
-    PDF_NOISE, /* the same from a few view lights, drawn anew for each texel and frame */
     PDFS
 } pdf_kind;
-static const char *const pdf_names[PDFS] = {"flux", "brsm", "noise"};
-static const char *const pdf_choices[] = {"all", "flux", "brsm", "noise", NULL};
+static const char *const pdf_names[PDFS] = {"flux", "brsm"};
+static const char *const pdf_choices[] = {"both", "flux", "brsm", NULL};
 static const char *const scene_choices[] = {"room", "caustic", NULL};
 
 typedef struct {
@@ -54,7 +52,7 @@ typedef struct {
     option_size size, view;
     option_list lights, kernels;
     option_place light;
-    int view_lights, frames, samples, seed;
+    int view_lights, interleave, frames, samples, seed;
     const char *out, *rsm;
 } settings;
 
@@ -100,17 +98,16 @@ static float *weights_of(const vpl_map *map) {
 }
 
 /* PDF building on the RSM. By the bidirectional method it is what each texel contributes to the view: view lights cast
-   the camera's importance on it, without shadows, and it reflects some towards the light. */
-static float *build_pdf(const vpl_map *rsm, const light_set *view_lights, pdf_kind kind, unsigned seed) {
+   the camera's importance on it, without shadows, and it reflects some towards the light. The frame changes which of
+   the view lights an interleaved texel takes. */
+static float *build_pdf(const vpl_map *rsm, const light_set *view_lights, pdf_kind kind, int frame, const settings *o) {
     float *pdf = weights_of(rsm);
     vec3 *importance;
     int i;
     if (kind == PDF_FLUX) return pdf;
     importance = (vec3 *)allocate("PDF", (size_t)texel_count(rsm), sizeof *importance);
-    if (kind == PDF_BRSM)
-        vsgl_shade(rsm, view_lights->lights, NULL, view_lights->count, importance, "PDF");
-    else
-        vsgl_shade_by_few(rsm, view_lights->lights, view_lights->count, PICKS, seed, importance);
+    vsgl_shade_interleaved(rsm, view_lights->lights, view_lights->count, o->interleave, (unsigned)(o->seed + frame),
+                           importance, "PDF");
     for (i = 0; i < texel_count(rsm); i++) pdf[i] = lobe_mean(importance[i]);
     free(importance);
     return pdf;
@@ -239,8 +236,7 @@ static void print_times(const generation_times *view, const generation_times *li
     for (how = 0; how < METHODS; how++) {
         const double *v = view->ms[how], *l = light->ms[how], total = sum_stages(view, how) + sum_stages(light, how);
         printf("      %-9s %21.3f %12.3f %6.3f %20.3f %12.3f %6.3f %8.3f %8.2f %10.2f\n", method_names[how], v[0], v[1],
-               v[2], l[0], l[1], l[2], total, total / fastest,
-               sum_stages(light, how) / sum_stages(light, METHOD_FAST));
+               v[2], l[0], l[1], l[2], total, total / fastest, sum_stages(light, how) / sum_stages(light, METHOD_FAST));
     }
     /* What comes before the kernels' sizes is the same code for both. */
     printf("      fast over density: %+.2f %% of generation; bisection over density: %+.2f %%\n\n",
@@ -272,11 +268,17 @@ static void measure_times(const vpl_map *view, const vpl_map *rsm, float *const 
 
 /* ---- how well the lights do ---- */
 
+/* Over the pixels: the root mean square of the standard deviation in time, and the median of it over the radiance */
+typedef struct {
+    double rms, relative;
+} flicker;
+
 typedef struct {
     method how;
     int count;
     float k;
-    double generation, visibility, shading, flux, firefly, rmse, relative, flicker;
+    double generation, visibility, shading, flux, firefly, rmse, relative;
+    flicker moving, still; /* of a light that moves; of a PDF whose noise does, alone */
     coverage covered;
 } row;
 
@@ -337,59 +339,79 @@ static void render(const scene *world, const vpl_map *view, const vpl_map *rsm, 
     generator_free(&g);
 }
 
-/* Root mean square, over pixels, of how much an image's error changed since the last frame, which it replaces; over
-   sqrt 2, which makes it the standard deviation of errors that know nothing of each other */
-static double change_of_error(const image *picture, const image *truth, image *last) {
-    double sum = 0;
-    int i, count = picture->width * picture->height;
-    for (i = 0; i < count; i++) {
-        vec3 error = lobe_sub(picture->pixels[i], truth->pixels[i]), change = lobe_sub(error, last->pixels[i]);
-        sum += (double)lobe_dot(change, change);
-        last->pixels[i] = error;
+/* How the error of each pixel changes from frame to frame, over sqrt 2: that makes it the standard deviation of errors
+   that know nothing of each other. */
+typedef struct {
+    image last;                 /* error of the last frame */
+    double *changes, *radiance; /* sums of squared changes, and of the truth; of the channels' mean */
+} flicker_sums;
+
+static void add_frame(flicker_sums *f, const image *picture, const image *truth, int frame) {
+    int i;
+    for (i = 0; i < picture->width * picture->height; i++) {
+        const vec3 error = lobe_sub(picture->pixels[i], truth->pixels[i]);
+        const double change = (double)lobe_mean(lobe_sub(error, f->last.pixels[i]));
+        if (frame) f->changes[i] += 0.5 * change * change;
+        f->radiance[i] += (double)lobe_mean(truth->pixels[i]);
+        f->last.pixels[i] = error;
     }
-    return sqrt(sum / (6.0 * count));
 }
 
-/* Flicker of the receivers, without shadows, which would add their own. With the noisy PDF light and scene stand still
-   and all that changes is the noise. Else the light moves a centimetre each frame, which changes the truth too: that is
-   taken from lights so many and so regular that they hardly flicker. */
-static void measure_flicker(const scene *still, const light_set *view_lights, pdf_kind kind, const settings *o,
-                            row *rows, int row_count) {
+static flicker sum_up(flicker_sums *f, int pixels, int frames) {
+    flicker result = {0, 0};
+    int i, lit = 0;
+    for (i = 0; i < pixels; i++) {
+        const double variance = f->changes[i] / (frames - 1);
+        result.rms += variance / pixels;
+        if (f->radiance[i] > 0) f->changes[lit++] = sqrt(variance) / (f->radiance[i] / frames);
+    }
+    qsort(f->changes, (size_t)lit, sizeof *f->changes, ascending);
+    result.rms = sqrt(result.rms);
+    result.relative = lit ? f->changes[lit / 2] : 0;
+    return result;
+}
+
+/* Flicker of the receivers, without shadows, which would add their own. The light moves a centimetre each frame, which
+   changes the truth too: that is taken from lights so many and so regular that they hardly flicker. Where the light
+   stands still, all that changes is which view lights each texel of the RSM takes. */
+static void measure_flicker(const scene *first, const light_set *view_lights, pdf_kind kind, int moving,
+                            const settings *o, row *rows, int row_count) {
     const option_size size = {(o->size.width + RECEIVER_STEP - 1) / RECEIVER_STEP,
                               (o->size.height + RECEIVER_STEP - 1) / RECEIVER_STEP};
-    const vpl_map view = render_view(still, size);
-    const int most = most_lights(o) > FINEST_LIGHTS ? most_lights(o) : FINEST_LIGHTS;
+    const spot_light *spot = &first->spot;
+    const vpl_map view = render_view(first, size);
+    const int most = most_lights(o) > FINEST_LIGHTS ? most_lights(o) : FINEST_LIGHTS, pixels = texel_count(&view);
     generator g = generator_create(RSM_SIZE, RSM_SIZE, most);
     light_set set = light_set_create(most);
     image truth = make_image(size.width, size.height), picture = make_image(size.width, size.height);
-    image *last = (image *)allocate("images", (size_t)row_count, sizeof *last);
+    flicker_sums *sums = (flicker_sums *)allocate("images", (size_t)row_count, sizeof *sums);
     progress line = progress_begin("flicker", o->frames * row_count);
     int frame, i;
-    for (i = 0; i < row_count; i++) last[i] = make_image(size.width, size.height);
+    for (i = 0; i < row_count; i++) {
+        sums[i].last = make_image(size.width, size.height);
+        sums[i].changes = (double *)allocate("images", (size_t)pixels, sizeof(double));
+        sums[i].radiance = (double *)allocate("images", (size_t)pixels, sizeof(double));
+    }
     for (frame = 0; frame < o->frames; frame++) {
-        scene world = *still;
-        const spot_light *spot = &still->spot;
-        const vec3 step = lobe_scale(spot->right, kind == PDF_NOISE ? 0 : 0.01f * (float)frame);
+        const vec3 step = lobe_scale(spot->right, moving ? 0.01f * (float)frame : 0);
+        scene world = *first;
         vpl_map rsm;
         float *pdf;
         spot_aim(&world.spot, lobe_add(spot->position, step), lobe_add(spot->target, step));
         rsm = render_rsm(&world);
-        if (frame == 0 || kind != PDF_NOISE) {
-            pdf = build_pdf(&rsm, NULL, PDF_FLUX, 0);
+        if (frame == 0 || moving) {
+            pdf = weights_of(&rsm);
             set.count = FINEST_LIGHTS;
             vsgl_generate(&g, &rsm, pdf, METHOD_SPLIT, 1, 0, &set);
             vsgl_shade(&view, set.lights, NULL, set.count, truth.pixels, "flicker");
             free(pdf);
         }
-        pdf = build_pdf(&rsm, view_lights, kind, (unsigned)(o->seed + frame));
+        pdf = build_pdf(&rsm, view_lights, kind, frame, o);
         for (i = 0; i < row_count; i++) {
-            row *r = &rows[i];
-            double change;
-            set.count = r->count;
-            vsgl_generate(&g, &rsm, pdf, r->how, r->k, (unsigned)o->seed, &set);
+            set.count = rows[i].count;
+            vsgl_generate(&g, &rsm, pdf, rows[i].how, rows[i].k, (unsigned)o->seed, &set);
             vsgl_shade(&view, set.lights, NULL, set.count, picture.pixels, "flicker");
-            change = change_of_error(&picture, &truth, &last[i]);
-            if (frame) r->flicker += change * change / (o->frames - 1);
+            add_frame(&sums[i], &picture, &truth, frame);
             progress_step(&line);
         }
         free(pdf);
@@ -397,10 +419,12 @@ static void measure_flicker(const scene *still, const light_set *view_lights, pd
     }
     progress_end(&line);
     for (i = 0; i < row_count; i++) {
-        rows[i].flicker = sqrt(rows[i].flicker);
-        image_free(&last[i]);
+        *(moving ? &rows[i].moving : &rows[i].still) = sum_up(&sums[i], pixels, o->frames);
+        image_free(&sums[i].last);
+        free(sums[i].changes);
+        free(sums[i].radiance);
     }
-    free(last);
+    free(sums);
     image_free(&truth);
     image_free(&picture);
     light_set_free(&set);
@@ -427,22 +451,15 @@ static void print_rows(const row *rows, int count, const char *pdf) {
         printf(" %8.2f %8.1f %8.1f  ", r->generation, r->visibility, r->shading);
         print_percent(r, r->covered.gap);
         print_percent(r, r->covered.overlap);
-        printf("%8.2f  %8.5f %8.5f   %6.4f  %.6f\n", r->firefly, r->flicker, r->rmse, r->relative, r->flux);
+        printf("%8.2f  %7.5f %7.5f  %7.5f %7.5f  %8.5f   %6.4f  %.6f\n", r->firefly, r->moving.rms, r->moving.relative,
+               r->still.rms, r->still.relative, r->rmse, r->relative, r->flux);
     }
     fflush(stdout);
 }
 
 /* ---- pictures ---- */
 
-enum {
-    PICTURE_DIRECT,
-    PICTURE_RESULT,
-    PICTURE_REFERENCE,
-    PICTURE_DIFFERENCE,
-    PICTURE_ALL,
-    PICTURE_KERNELS,
-    PICTURES
-};
+enum { PICTURE_DIRECT, PICTURE_RESULT, PICTURE_REFERENCE, PICTURE_DIFFERENCE, PICTURE_ALL, PICTURE_KERNELS, PICTURES };
 static const char *const picture_names[PICTURES] = {"-direct.png",     "-result.png", "-reference.png",
                                                     "-difference.png", ".png",        "-kernels.png"};
 
@@ -571,7 +588,7 @@ static void compare(const settings *o) {
     image direct = make_image(o->size.width, o->size.height), indirect = make_image(o->size.width, o->size.height);
     image best = make_image(o->size.width, o->size.height), reference;
     light_set view_lights;
-    float *pdfs[PDFS] = {NULL, NULL, NULL};
+    float *pdfs[PDFS] = {NULL, NULL};
     row rows[MAX_ROWS], chosen;
     int kind, last = 0, i;
     if (!seen.texels) give_up("images", "not enough memory");
@@ -580,15 +597,20 @@ static void compare(const settings *o) {
     view_lights = generate_view_lights(&view, o);
     for (kind = 0; kind < PDFS; kind++) {
         if (o->pdf && o->pdf != 1 + kind) continue;
-        pdfs[kind] = build_pdf(&rsm, &view_lights, (pdf_kind)kind, (unsigned)o->seed);
+        pdfs[kind] = build_pdf(&rsm, &view_lights, (pdf_kind)kind, 0, o);
         last = kind;
     }
     measure_times(&view, &rsm, pdfs, o);
     memset(&chosen, 0, sizeof chosen);
     chosen.rmse = 1e30;
-    printf("times in ms, gaps and overlaps in %% of the PDF; flicker and errors are those of indirect radiance\n");
-    printf("PDF   lights method     K generation  shadows  shading     gap overlap firefly   flicker     RMSE relative "
-           "light/RSM\n");
+    printf(
+        "generation, shadow maps and shading in ms; gap and overlap in %% of the PDF; firefly: the brightest light\n"
+        "over the mean one; flicker over %d frames, of a moving light and of the PDF's noise alone: RMS, and median\n"
+        "over the pixel; RMSE and mean error over mean of indirect radiance; flux of the lights over the RSM's\n",
+        o->frames);
+    printf("PDF   lights method     K generation  shadows  shading     gap overlap firefly    moving  median    noise  "
+           "median"
+           "      RMSE    error      flux\n");
     for (kind = 0; kind < PDFS; kind++) {
         int row_count = plan_rows(o, rows);
         if (!pdfs[kind]) continue;
@@ -598,7 +620,8 @@ static void compare(const settings *o) {
             chosen = rows[i];
             image_paste(&best, &indirect, 0, 0);
         }
-        measure_flicker(&world, &view_lights, (pdf_kind)kind, o, rows, row_count);
+        measure_flicker(&world, &view_lights, (pdf_kind)kind, 1, o, rows, row_count);
+        if (kind == PDF_BRSM) measure_flicker(&world, &view_lights, PDF_BRSM, 0, o, rows, row_count);
         print_rows(rows, row_count, pdf_names[kind]);
     }
     printf("\n");
@@ -617,7 +640,8 @@ static void compare(const settings *o) {
 }
 
 int main(int argc, char **argv) {
-    settings o = {0, 0, 0, {256, 192}, {480, 272}, {1, {1024}}, {1, {1}}, {0, 0, 0, 0}, 512, 8, 256, 0, "build/vsgl", 0};
+    settings o = {0,    0, 0, {256, 192}, {480, 272}, {1, {1024}},  {1, {1}}, {0, 0, 0, 0},
+                  2048, 4, 8, 256,        0,          "build/vsgl", 0};
     const char *method_choices[METHODS + 2] = {"all"};
     const option options[] = {
         {"--scene S", OPTION_CHOICE, &o.scene, 0, 0, "what is lit", scene_choices},
@@ -628,6 +652,8 @@ int main(int argc, char **argv) {
         {"--pdf P", OPTION_CHOICE, &o.pdf, 0, 0, "what they are placed by", pdf_choices},
         {"--view WxH", OPTION_SIZE, &o.view, 16, 4096, "of the G-buffer that view lights are made of", 0},
         {"--view-lights N", OPTION_WHOLE, &o.view_lights, 1, 65536, "that tell what the camera needs", 0},
+        {"--interleave N", OPTION_WHOLE, &o.interleave, 1, 64,
+         "N x N texels of the RSM share the view lights; 1: each has all", 0},
         {"--frames N", OPTION_WHOLE, &o.frames, 2, 1000, "that flicker is measured over", 0},
         {"--samples N", OPTION_WHOLE, &o.samples, 2, 1000000, "samples per pixel of the reference", 0},
         OPTION_OF_SEED(&o.seed),
@@ -639,15 +665,16 @@ int main(int argc, char **argv) {
     };
     int i;
     for (i = 0; i <= METHODS; i++) method_choices[i + 1] = method_names[i];
-    options_read(options, argc, argv,
-                 "Renders one-bounce glossy indirect light with virtual spherical Gaussian lights (VSGL), and prints\n"
-                 "speed against error, gaps, overlaps and flicker of ways to generate them from a reflective shadow\n"
-                 "map (RSM).\n\n"
-                 "With --rsm it writes the lights of your RSM to OUT.txt instead, a line each, with columns named in\n"
-                 "the first: the first number of --lights, by --method (fast if all) and the first of --k. The four\n"
-                 "files are of one size, any: position and normal in world space, RGB flux that the texel reflects (0:\n"
-                 "nothing there), alpha of GGX. Where alpha is 1 all of the flux is reflected diffusely, elsewhere all\n"
-                 "of it specularly, away from --light.");
+    options_read(
+        options, argc, argv,
+        "Renders one-bounce glossy indirect light with virtual spherical Gaussian lights (VSGL), and prints\n"
+        "speed against error, gaps, overlaps and flicker of ways to generate them from a reflective shadow\n"
+        "map (RSM).\n\n"
+        "With --rsm it writes the lights of your RSM to OUT.txt instead, a line each, with columns named in\n"
+        "the first: the first number of --lights, by --method (fast if all) and the first of --k. The four\n"
+        "files are of one size, any: position and normal in world space, RGB flux that the texel reflects (0:\n"
+        "nothing there), alpha of GGX. Where alpha is 1 all of the flux is reflected diffusely, elsewhere all\n"
+        "of it specularly, away from --light.");
     if (o.rsm) {
         convert(&o);
     } else {

@@ -2,7 +2,15 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
-typedef enum { OPTION_WHOLE, OPTION_REAL, OPTION_TEXT, OPTION_SIZE, OPTION_LIST, OPTION_CHOICE, OPTION_PLACE } option_kind;
+typedef enum {
+    OPTION_WHOLE,
+    OPTION_REAL,
+    OPTION_TEXT,
+    OPTION_SIZE,
+    OPTION_LIST,
+    OPTION_CHOICE,
+    OPTION_PLACE
+} option_kind;
 
 enum { OPTIONS_MAX_LIST = 8 };
 

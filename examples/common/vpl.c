@@ -44,10 +44,9 @@ static const char *const part_names[PARTS] = {"position", "normal", "flux", "alp
 
 /* What products and squares of are far from the range of floats */
 static const float lows[PARTS] = {-1e5f, -1e5f, 0, 0}, highs[PARTS] = {1e5f, 1e5f, 1e15f, 1};
-static const char *const ranges[PARTS] = {"it has a value that is not in [-1e5, 1e5]",
-                                          "it has a value that is not in [-1e5, 1e5]",
-                                          "it has a value that is not in [0, 1e15]",
-                                          "it has a value that is not in [0, 1]"};
+static const char *const ranges[PARTS] = {
+    "it has a value that is not in [-1e5, 1e5]", "it has a value that is not in [-1e5, 1e5]",
+    "it has a value that is not in [0, 1e15]", "it has a value that is not in [0, 1]"};
 
 static void part_path(char *path, size_t size, const char *prefix, int part) {
     if (snprintf(path, size, "%s-%s.pfm", prefix, part_names[part]) >= (int)size) give_up(prefix, "name too long");
@@ -116,8 +115,9 @@ vpl_map vpl_map_read(const char *prefix, const vec3 *light) {
         sums[2] += (double)v->position.z;
         lit++;
     }
-    if (lit) map.center = lobe_vector((float)(sums[0] / (double)lit), (float)(sums[1] / (double)lit),
-                                      (float)(sums[2] / (double)lit));
+    if (lit)
+        map.center =
+            lobe_vector((float)(sums[0] / (double)lit), (float)(sums[1] / (double)lit), (float)(sums[2] / (double)lit));
     for (part = 0; part < PARTS; part++) free(parts[part].values);
     return map;
 }

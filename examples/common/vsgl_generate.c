@@ -6,7 +6,7 @@
 
 enum { CHANNELS = sizeof(vsgl_moments) / sizeof(float), BISECTIONS = 12 };
 
-const char *const method_names[METHODS + 1] = {"nearest", "density",  "bisection", "fast", "split",
+const char *const method_names[METHODS + 1] = {"nearest",  "density",  "bisection", "fast", "split",
                                                "kmeans2d", "kmeans3d", "transform", NULL};
 
 generator generator_create(int width, int height, int most) {
@@ -120,7 +120,10 @@ static kernel kernel_bisection(const fis_pyramid *pdf, const fis_sample *center,
 static kernel kernel_fast(const fis_pyramid *pdf, const fis_sample *center, int count, float k) {
     kernel size;
     size.level = fis_level(pdf, center, count, k);
-    size.scale = fis_scale(pdf, center, size.level, count);
+    if (size.level > 0 && size.level < (float)(pdf->levels - 1))
+        size.scale = exp2f(2 * size.level) / k; /* the kernel holds k / count of the PDF: no need to look */
+    else
+        size.scale = fis_scale(pdf, center, size.level, count);
     return size;
 }
 
@@ -298,8 +301,8 @@ static void generate_transform(generator *g, const vpl_map *map, const float *de
 
 void vsgl_generate(generator *g, const vpl_map *map, const float *pdf, method how, float k, unsigned seed,
                    light_set *set) {
-    static kernel (*const kernels[METHODS])(const fis_pyramid *, const fis_sample *, int, float) = {
-        kernel_nearest, kernel_density, kernel_bisection, kernel_fast};
+    static kernel (*const kernels[METHODS])(const fis_pyramid *, const fis_sample *, int,
+                                            float) = {kernel_nearest, kernel_density, kernel_bisection, kernel_fast};
     set->labels = method_is_labelling(how) ? g->labels : NULL;
     if (method_is_filtered(how)) {
         generate_filtered(g, map, pdf, kernels[how], k, seed, set);

@@ -96,7 +96,8 @@ void light_set_draw(const light_set *set, const float *pdf, image *picture) {
         }
     }
     for (i = 0; i < set->count; i++) {
-        const int column = pixel_of((double)set->centers[i].u, width), row = pixel_of((double)set->centers[i].v, height);
+        const int column = pixel_of((double)set->centers[i].u, width),
+                  row = pixel_of((double)set->centers[i].v, height);
         for (y = row - 1; y <= row + 1; y++) {
             for (x = column - 1; x <= column + 1; x++) paint(picture, x, y, red);
         }

@@ -1,7 +1,9 @@
 #include "vsgl_shade.h"
 #include "../../asg.h"
+#include "fail.h"
 #include "parallel.h"
 #include "progress.h"
+#include <stdlib.h>
 #include <string.h>
 
 enum { BLOCK = 256 };
@@ -114,37 +116,37 @@ void vsgl_shade(const vpl_map *map, const vsgl *lights, const shadow_map *maps, 
     progress_end(&line);
 }
 
-static unsigned hash(unsigned which, unsigned pick, unsigned seed) {
-    unsigned x = which * 0x9E3779B1u + pick * 0x85EBCA77u + seed * 0xC2B2AE3Du;
-    x = (x ^ (x >> 16)) * 0x7FEB352Du;
-    x = (x ^ (x >> 15)) * 0x846CA68Bu;
-    return x ^ (x >> 16);
-}
-
-void vsgl_shade_by_few(const vpl_map *map, const vsgl *lights, int light_count, int picks, unsigned seed,
-                       vec3 *radiance) {
-    const float share = (float)light_count / (float)picks;
-    int row;
-    PARALLEL_FOR
-    for (row = 0; row < map->height; row++) {
-        int i, pick, k;
-        for (i = row * map->width; i < (row + 1) * map->width; i++) {
-            const vpl *t = &map->texels[i];
-            vec3 sum = {0, 0, 0};
-            asg_lobe reflection;
-            if (vpl_weight(t) > 0) {
-                reflection = asg_ggx_lobe(t->normal, t->view, t->alpha);
-                for (pick = 0; pick < picks; pick++) {
-                    const vsgl *v = &lights[hash((unsigned)i, (unsigned)pick, seed) % (unsigned)light_count];
-                    for (k = 0; k < 2; k++) {
-                        vec3 reflected = lobe_scale(t->diffuse, vsgl_diffuse(*v, k, t->position, t->normal));
-                        float specular = asg_vsgl_specular(*v, k, t->position, t->normal, t->view, t->alpha, reflection);
-                        reflected = lobe_add(reflected, lobe_scale(t->specular, specular));
-                        sum = lobe_add(sum, vec3_multiply(v->intensity[k], reflected));
-                    }
-                }
-            }
-            radiance[i] = lobe_scale(sum, share);
+void vsgl_shade_interleaved(const vpl_map *map, const vsgl *lights, int light_count, int side, unsigned seed,
+                            vec3 *radiance, const char *label) {
+    const int subsets = side * side, width = (map->width + side - 1) / side, height = (map->height + side - 1) / side;
+    const size_t texels = (size_t)width * (size_t)height;
+    vpl *parts = (vpl *)allocate("interleaved texels", texels, sizeof *parts);
+    vec3 *shaded = (vec3 *)allocate("interleaved texels", texels, sizeof *shaded);
+    vsgl *subset = (vsgl *)allocate("interleaved lights", (size_t)light_count, sizeof *subset);
+    int which, i, x, y;
+    for (which = 0; which < subsets; which++) {
+        const int left = which % side, top = which / side;
+        vpl_map part = *map;
+        int count = 0;
+        part.texels = parts;
+        part.width = width;
+        part.height = height;
+        memset(parts, 0, texels * sizeof *parts);
+        for (y = top; y < map->height; y += side) {
+            for (x = left; x < map->width; x += side)
+                parts[y / side * width + x / side] = map->texels[y * map->width + x];
+        }
+        /* an odd multiple of the subset, so that neighbours take unlike ones */
+        for (i = (int)((unsigned)which * 37u + seed * 29u) % subsets; i < light_count; i += subsets)
+            subset[count++] = lights[i];
+        vsgl_shade(&part, subset, NULL, count, shaded, label);
+        for (y = top; y < map->height; y += side) {
+            for (x = left; x < map->width; x += side)
+                radiance[y * map->width + x] =
+                    lobe_scale(shaded[y / side * width + x / side], (float)light_count / (float)(count ? count : 1));
         }
     }
+    free(parts);
+    free(shaded);
+    free(subset);
 }

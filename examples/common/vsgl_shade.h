@@ -11,8 +11,9 @@
 void vsgl_shade(const vpl_map *map, const vsgl *lights, const shadow_map *maps, int light_count, vec3 *radiance,
                 const char *label);
 
-/* The same from a few of the lights, `picks` for each texel, chosen at random for it alone: an estimate with noise. */
-void vsgl_shade_by_few(const vpl_map *map, const vsgl *lights, int light_count, int picks, unsigned seed,
-                       vec3 *radiance);
+/* The same from one of `side` by `side` subsets of the lights for each texel, all others around it taking another:
+   interleaved sampling. The seed changes which. An estimate with noise, which blocks of that many texels are free of. */
+void vsgl_shade_interleaved(const vpl_map *map, const vsgl *lights, int light_count, int side, unsigned seed,
+                            vec3 *radiance, const char *label);
 
 #endif
