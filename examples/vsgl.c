@@ -590,7 +590,7 @@ static void compare(const settings *o) {
     light_set view_lights;
     float *pdfs[PDFS] = {NULL, NULL};
     row rows[MAX_ROWS], chosen;
-    int kind, last = 0, i;
+    int kind, last = 0, chosen_pdf = 0, i;
     if (!seen.texels) give_up("images", "not enough memory");
     light_directly(&world, &seen, &direct);
     reference = trace_reference(&world, &seen, o);
@@ -602,7 +602,7 @@ static void compare(const settings *o) {
     }
     measure_times(&view, &rsm, pdfs, o);
     memset(&chosen, 0, sizeof chosen);
-    chosen.rmse = 1e30;
+    chosen.relative = 1e30;
     printf(
         "generation, shadow maps and shading in ms; gap and overlap in %% of the PDF; firefly: the brightest light\n"
         "over the mean one; flicker over %d frames, of a moving light and of the PDF's noise alone: RMS, and median\n"
@@ -616,8 +616,9 @@ static void compare(const settings *o) {
         if (!pdfs[kind]) continue;
         for (i = 0; i < row_count; i++) {
             render(&world, &pixels, &rsm, pdfs[kind], o, &rows[i], &reference, &indirect);
-            if (rows[i].rmse >= chosen.rmse) continue;
+            if (rows[i].relative >= chosen.relative) continue;
             chosen = rows[i];
+            chosen_pdf = kind;
             image_paste(&best, &indirect, 0, 0);
         }
         measure_flicker(&world, &view_lights, (pdf_kind)kind, 1, o, rows, row_count);
@@ -626,6 +627,8 @@ static void compare(const settings *o) {
     }
     printf("\n");
     write_pictures(o->out, &direct, &best, &reference);
+    printf("their lights are those of the smallest error: %d by %s, PDF %s\n", chosen.count, method_names[chosen.how],
+           pdf_names[chosen_pdf]);
     write_kernels(&rsm, pdfs[last], pdf_names[last], o);
     for (kind = 0; kind < PDFS; kind++) free(pdfs[kind]);
     light_set_free(&view_lights);
