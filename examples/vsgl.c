@@ -99,15 +99,15 @@ static float *weights_of(const vpl_map *map) {
 
 /* PDF building on the RSM. By the bidirectional method it is what each texel contributes to the view: view lights cast
    the camera's importance on it, without shadows, and it reflects some towards the light. The frame changes which of
-   the view lights an interleaved texel takes. */
+   the view lights an texel takes. */
 static float *build_pdf(const vpl_map *rsm, const light_set *view_lights, pdf_kind kind, int frame, const settings *o) {
     float *pdf = weights_of(rsm);
     vec3 *importance;
     int i;
     if (kind == PDF_FLUX) return pdf;
     importance = (vec3 *)allocate("PDF", (size_t)texel_count(rsm), sizeof *importance);
-    vsgl_shade_interleaved(rsm, view_lights->lights, view_lights->count, o->interleave, (unsigned)(o->seed + frame),
-                           importance, "PDF");
+    vsgl_shade_interleaved(rsm, view_lights->lights, view_lights->count, o->interleave,
+                           (unsigned)o->seed + (unsigned)frame, importance, "PDF");
     for (i = 0; i < texel_count(rsm); i++) pdf[i] = lobe_mean(importance[i]);
     free(importance);
     return pdf;
@@ -227,27 +227,21 @@ static double sum_stages(const generation_times *t, int how) {
 }
 
 static void print_times(const generation_times *view, const generation_times *light, const char *pdf) {
-    double base = sum_stages(view, METHOD_DENSITY) + sum_stages(light, METHOD_DENSITY);
-    double fastest = sum_stages(view, METHOD_FAST) + sum_stages(light, METHOD_FAST);
+    const double fast = sum_stages(view, METHOD_FAST) + sum_stages(light, METHOD_FAST);
+    const double density = sum_stages(view, METHOD_DENSITY) + sum_stages(light, METHOD_DENSITY);
+    double more[METHODS];
     int how;
-    printf("%-5s           G-buffer: sums/labels pyramid/sort lights      RSM: sums/labels pyramid/sort lights    total"
-           "   / fast  RSM alone\n",
-           pdf);
     for (how = 0; how < METHODS; how++) {
-        const double *v = view->ms[how], *l = light->ms[how], total = sum_stages(view, how) + sum_stages(light, how);
-        printf("      %-9s %21.3f %12.3f %6.3f %20.3f %12.3f %6.3f %8.3f %8.2f %10.2f\n", method_names[how], v[0], v[1],
-               v[2], l[0], l[1], l[2], total, total / fastest, sum_stages(light, how) / sum_stages(light, METHOD_FAST));
+        const double *v = view->ms[how], *l = light->ms[how], both = sum_stages(view, how) + sum_stages(light, how);
+        printf("%-5s %-9s %8.3f %8.3f %8.3f  %8.3f %8.3f %8.3f  %8.3f %7.2f %10.2f\n", pdf, method_names[how], v[0],
+               v[1], v[2], l[0], l[1], l[2], both, both / fast,
+               sum_stages(light, how) / sum_stages(light, METHOD_FAST));
+        more[how] = v[STAGE_LIGHTS] - view->ms[METHOD_DENSITY][STAGE_LIGHTS] + l[STAGE_LIGHTS] -
+                    light->ms[METHOD_DENSITY][STAGE_LIGHTS];
     }
-    /* What comes before the kernels' sizes is the same code for both. */
-    printf("      fast over density: %+.2f %% of generation; bisection over density: %+.2f %%\n\n",
-           100 *
-               (view->ms[METHOD_FAST][STAGE_LIGHTS] - view->ms[METHOD_DENSITY][STAGE_LIGHTS] +
-                light->ms[METHOD_FAST][STAGE_LIGHTS] - light->ms[METHOD_DENSITY][STAGE_LIGHTS]) /
-               base,
-           100 *
-               (view->ms[METHOD_BISECTION][STAGE_LIGHTS] - view->ms[METHOD_DENSITY][STAGE_LIGHTS] +
-                light->ms[METHOD_BISECTION][STAGE_LIGHTS] - light->ms[METHOD_DENSITY][STAGE_LIGHTS]) /
-               base);
+    /* What comes before their lights is the same code. */
+    printf("%-5s takes longer than density: bisection by %.2f %% of all generation, fast by %.2f %%\n", pdf,
+           100 * more[METHOD_BISECTION] / density, 100 * more[METHOD_FAST] / density);
     fflush(stdout);
 }
 
@@ -255,8 +249,11 @@ static void measure_times(const vpl_map *view, const vpl_map *rsm, float *const 
     float *reflectance = weights_of(view);
     generation_times on_view = time_generation(view, reflectance, o->view_lights, o, "generation on the G-buffer");
     int kind;
-    printf("generation, ms on one thread: %d lights of the %dx%d G-buffer and %d of the %dx%d RSM\n", o->view_lights,
-           view->width, view->height, o->lights.value[0], rsm->width, rsm->height);
+    printf(
+        "\nGeneration in ms on one thread, %d lights of a %dx%d G-buffer, then %d of the %dx%d RSM. Texels: sums of\n"
+        "each, or its label; pyramid: or table, or sort; lights: or sums of clusters\n",
+        o->view_lights, view->width, view->height, o->lights.value[0], rsm->width, rsm->height);
+    printf("PDF   method      texels  pyramid   lights    texels  pyramid   lights      both  / fast RSM / fast\n");
     for (kind = 0; kind < PDFS; kind++) {
         generation_times on_rsm;
         if (!pdfs[kind]) continue;
@@ -432,27 +429,26 @@ static void measure_flicker(const scene *first, const light_set *view_lights, pd
     free(view.texels);
 }
 
-static void print_percent(const row *r, double share) {
-    if (method_is_labelling(r->how))
-        printf("      - ");
-    else
-        printf(" %6.2f ", 100 * share);
-}
-
-static void print_rows(const row *rows, int count, const char *pdf) {
+static void print_rows(const row *rows, int count, pdf_kind kind) {
     int i;
     for (i = 0; i < count; i++) {
         const row *r = &rows[i];
-        printf("%-5s %6d %-9s", pdf, r->count, method_names[r->how]);
+        printf("%-5s %6d %-9s", pdf_names[kind], r->count, method_names[r->how]);
         if (method_is_filtered(r->how))
             printf(" %2.0f", (double)r->k);
         else
             printf("  -");
-        printf(" %8.2f %8.1f %8.1f  ", r->generation, r->visibility, r->shading);
-        print_percent(r, r->covered.gap);
-        print_percent(r, r->covered.overlap);
-        printf("%8.2f  %7.5f %7.5f  %7.5f %7.5f  %8.5f   %6.4f  %.6f\n", r->firefly, r->moving.rms, r->moving.relative,
-               r->still.rms, r->still.relative, r->rmse, r->relative, r->flux);
+        printf(" %10.2f %7.1f %7.1f ", r->generation, r->visibility, r->shading);
+        if (method_is_labelling(r->how)) /* every texel is in one cluster */
+            printf("     -       -");
+        else
+            printf("%6.2f %7.2f", 100 * r->covered.gap, 100 * r->covered.overlap);
+        printf(" %7.2f  %.5f %.5f ", r->firefly, r->moving.rms, r->moving.relative);
+        if (kind == PDF_BRSM)
+            printf(" %.5f %.5f", r->still.rms, r->still.relative);
+        else
+            printf("       -       -");
+        printf("  %.5f  %.4f  %.6f\n", r->rmse, r->relative, r->flux);
     }
     fflush(stdout);
 }
@@ -604,13 +600,13 @@ static void compare(const settings *o) {
     memset(&chosen, 0, sizeof chosen);
     chosen.relative = 1e30;
     printf(
-        "generation, shadow maps and shading in ms; gap and overlap in %% of the PDF; firefly: the brightest light\n"
-        "over the mean one; flicker over %d frames, of a moving light and of the PDF's noise alone: RMS, and median\n"
-        "over the pixel; RMSE and mean error over mean of indirect radiance; flux of the lights over the RSM's\n",
+        "\nGeneration, shadow maps and shading in ms; gap and overlap in %% of the PDF; brightest light over the\n"
+        "mean; flicker over %d frames of a moving light, and of the PDF's noise alone: RMS, and median of the share\n"
+        "of a pixel's radiance; RMSE and mean error over mean of the indirect light; power of the lights over the\n"
+        "RSM's\n",
         o->frames);
-    printf("PDF   lights method     K generation  shadows  shading     gap overlap firefly    moving  median    noise  "
-           "median"
-           "      RMSE    error      flux\n");
+    printf("PDF   lights method     K generation shadows shading    gap overlap firefly   moving  median    noise "
+           " median     RMSE   error    power\n");
     for (kind = 0; kind < PDFS; kind++) {
         int row_count = plan_rows(o, rows);
         if (!pdfs[kind]) continue;
@@ -623,7 +619,7 @@ static void compare(const settings *o) {
         }
         measure_flicker(&world, &view_lights, (pdf_kind)kind, 1, o, rows, row_count);
         if (kind == PDF_BRSM) measure_flicker(&world, &view_lights, PDF_BRSM, 0, o, rows, row_count);
-        print_rows(rows, row_count, pdf_names[kind]);
+        print_rows(rows, row_count, (pdf_kind)kind);
     }
     printf("\n");
     write_pictures(o->out, &direct, &best, &reference);
@@ -656,7 +652,7 @@ int main(int argc, char **argv) {
         {"--view WxH", OPTION_SIZE, &o.view, 16, 4096, "of the G-buffer that view lights are made of", 0},
         {"--view-lights N", OPTION_WHOLE, &o.view_lights, 1, 65536, "that tell what the camera needs", 0},
         {"--interleave N", OPTION_WHOLE, &o.interleave, 1, 64,
-         "N x N texels of the RSM share the view lights; 1: each has all", 0},
+         "N x N texels of the RSM share them; 1: each has all, and there is no noise", 0},
         {"--frames N", OPTION_WHOLE, &o.frames, 2, 1000, "that flicker is measured over", 0},
         {"--samples N", OPTION_WHOLE, &o.samples, 2, 1000000, "samples per pixel of the reference", 0},
         OPTION_OF_SEED(&o.seed),

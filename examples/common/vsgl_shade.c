@@ -116,37 +116,53 @@ void vsgl_shade(const vpl_map *map, const vsgl *lights, const shadow_map *maps, 
     progress_end(&line);
 }
 
+static unsigned hash(unsigned which, unsigned seed) {
+    unsigned x = which * 0x9E3779B1u + seed * 0x85EBCA77u;
+    x = (x ^ (x >> 16)) * 0x7FEB352Du;
+    x = (x ^ (x >> 15)) * 0x846CA68Bu;
+    return x ^ (x >> 16);
+}
+
+/* 0 .. count - 1 in an order that the seed draws */
+static void shuffle(int *order, int count, unsigned seed) {
+    int i;
+    for (i = 0; i < count; i++) {
+        const int other = (int)(hash((unsigned)i, seed) % (unsigned)(i + 1));
+        order[i] = order[other];
+        order[other] = i;
+    }
+}
+
 void vsgl_shade_interleaved(const vpl_map *map, const vsgl *lights, int light_count, int side, unsigned seed,
                             vec3 *radiance, const char *label) {
     const int subsets = side * side, width = (map->width + side - 1) / side, height = (map->height + side - 1) / side;
     const size_t texels = (size_t)width * (size_t)height;
-    vpl *parts = (vpl *)allocate("interleaved texels", texels, sizeof *parts);
     vec3 *shaded = (vec3 *)allocate("interleaved texels", texels, sizeof *shaded);
     vsgl *subset = (vsgl *)allocate("interleaved lights", (size_t)light_count, sizeof *subset);
+    int *order = (int *)allocate("interleaved lights", (size_t)subsets, sizeof *order);
+    vpl_map part = *map;
     int which, i, x, y;
+    part.texels = (vpl *)allocate("interleaved texels", texels, sizeof *part.texels);
+    shuffle(order, subsets, seed);
     for (which = 0; which < subsets; which++) {
         const int left = which % side, top = which / side;
-        vpl_map part = *map;
         int count = 0;
-        part.texels = parts;
-        part.width = width;
-        part.height = height;
-        memset(parts, 0, texels * sizeof *parts);
-        for (y = top; y < map->height; y += side) {
-            for (x = left; x < map->width; x += side)
-                parts[y / side * width + x / side] = map->texels[y * map->width + x];
+        for (i = order[which]; i < light_count; i += subsets) subset[count++] = lights[i];
+        part.width = (map->width - left + side - 1) / side;
+        part.height = (map->height - top + side - 1) / side;
+        for (y = 0; y < part.height; y++) {
+            const vpl *row = map->texels + (y * side + top) * map->width + left;
+            for (x = 0; x < part.width; x++) part.texels[y * part.width + x] = row[x * side];
         }
-        /* an odd multiple of the subset, so that neighbours take unlike ones */
-        for (i = (int)((unsigned)which * 37u + seed * 29u) % subsets; i < light_count; i += subsets)
-            subset[count++] = lights[i];
         vsgl_shade(&part, subset, NULL, count, shaded, label);
-        for (y = top; y < map->height; y += side) {
-            for (x = left; x < map->width; x += side)
-                radiance[y * map->width + x] =
-                    lobe_scale(shaded[y / side * width + x / side], (float)light_count / (float)(count ? count : 1));
+        for (y = 0; y < part.height; y++) {
+            vec3 *row = radiance + (y * side + top) * map->width + left;
+            for (x = 0; x < part.width; x++)
+                row[x * side] = lobe_scale(shaded[y * part.width + x], (float)light_count / (float)(count ? count : 1));
         }
     }
-    free(parts);
+    free(part.texels);
     free(shaded);
     free(subset);
+    free(order);
 }
