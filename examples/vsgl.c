@@ -639,8 +639,7 @@ static void compare(const settings *o) {
 }
 
 int main(int argc, char **argv) {
-    settings o = {0,    0, 0, {256, 192}, {480, 272}, {1, {1024}},  {1, {1}}, {0, 0, 0, 0},
-                  2048, 4, 8, 256,        0,          "build/vsgl", 0};
+    settings o = {0};
     const char *method_choices[METHODS + 2] = {"all"};
     const option options[] = {
         {"--scene S", OPTION_CHOICE, &o.scene, 0, 0, "what is lit", scene_choices},
@@ -651,8 +650,7 @@ int main(int argc, char **argv) {
         {"--pdf P", OPTION_CHOICE, &o.pdf, 0, 0, "what they are placed by", pdf_choices},
         {"--view WxH", OPTION_SIZE, &o.view, 16, 4096, "of the G-buffer that view lights are made of", 0},
         {"--view-lights N", OPTION_WHOLE, &o.view_lights, 1, 65536, "that tell what the camera needs", 0},
-        {"--interleave N", OPTION_WHOLE, &o.interleave, 1, 64,
-         "N x N texels of the RSM share them; 1: each has all, and there is no noise", 0},
+        {"--interleave N", OPTION_WHOLE, &o.interleave, 1, 64, "N x N texels of the RSM share them; 1: no noise", 0},
         {"--frames N", OPTION_WHOLE, &o.frames, 2, 1000, "that flicker is measured over", 0},
         {"--samples N", OPTION_WHOLE, &o.samples, 2, 1000000, "samples per pixel of the reference", 0},
         OPTION_OF_SEED(&o.seed),
@@ -663,6 +661,18 @@ int main(int argc, char **argv) {
         {0, OPTION_WHOLE, 0, 0, 0, 0, 0},
     };
     int i;
+    o.size.width = 256;
+    o.size.height = 192;
+    o.view.width = 480;
+    o.view.height = 272;
+    o.lights.count = o.kernels.count = 1;
+    o.lights.value[0] = 1024;
+    o.kernels.value[0] = 1;
+    o.view_lights = 2048;
+    o.interleave = 8;
+    o.frames = 8;
+    o.samples = 256;
+    o.out = "build/vsgl";
     for (i = 0; i <= METHODS; i++) method_choices[i + 1] = method_names[i];
     options_read(
         options, argc, argv,
