@@ -663,8 +663,8 @@ int main(int argc, char **argv) {
     int i;
     o.size.width = 256;
     o.size.height = 192;
-    o.view.width = 480;
-    o.view.height = 272;
+    o.view.width = 960; /* half of the paper's */
+    o.view.height = 544;
     o.lights.count = o.kernels.count = 1;
     o.lights.value[0] = 1024;
     o.kernels.value[0] = 1;
