@@ -466,8 +466,7 @@ static void check_path(const char *prefix, const char *name) {
     if (wrong) give_up(path, wrong);
 }
 
-static void write_picture(const char *prefix, int which, image *picture) {
-    const float exposure = 2.2f;
+static void write_picture(const char *prefix, int which, image *picture, float exposure) {
     char path[1024];
     const char *wrong;
     snprintf(path, sizeof path, "%s%s", prefix, picture_names[which]);
@@ -476,7 +475,8 @@ static void write_picture(const char *prefix, int which, image *picture) {
     image_free(picture);
 }
 
-static void write_pictures(const char *prefix, const image *direct, const image *indirect, const image *reference) {
+static void write_pictures(const char *prefix, const image *direct, const image *indirect, const image *reference,
+                           float exposure) {
     const int width = direct->width, height = direct->height, count = width * height;
     image pictures[PICTURE_ALL], all = make_image(2 * width, 2 * height);
     int i;
@@ -491,9 +491,9 @@ static void write_pictures(const char *prefix, const image *direct, const image 
     }
     for (i = 0; i < PICTURE_ALL; i++) {
         image_paste(&all, &pictures[i], i % 2 * width, i / 2 * height);
-        write_picture(prefix, i, &pictures[i]);
+        write_picture(prefix, i, &pictures[i], exposure);
     }
-    write_picture(prefix, PICTURE_ALL, &all);
+    write_picture(prefix, PICTURE_ALL, &all, exposure);
     printf("wrote %s.png: direct, direct + indirect, reference, difference; and each alone\n", prefix);
 }
 
@@ -509,7 +509,7 @@ static void write_kernels(const vpl_map *rsm, const float *pdf, const char *pdf_
         light_set_draw(&set, pdf, &panel);
         image_paste(&all, &panel, i % 2 * rsm->width, i / 2 * rsm->height);
     }
-    write_picture(o->out, PICTURE_KERNELS, &all);
+    write_picture(o->out, PICTURE_KERNELS, &all, 2.2f);
     printf("wrote %s%s: %d kernels on the PDF %s, by density, bisection, split and kmeans2d\n", o->out,
            picture_names[PICTURE_KERNELS], KERNELS_SHOWN, pdf_name);
     image_free(&panel);
@@ -622,7 +622,7 @@ static void compare(const settings *o) {
         print_rows(rows, row_count, (pdf_kind)kind);
     }
     printf("\n");
-    write_pictures(o->out, &direct, &best, &reference);
+    write_pictures(o->out, &direct, &best, &reference, o->scene == 0 ? 2.2f : 0.6f);
     printf("their lights are those of the smallest error: %d by %s, PDF %s\n", chosen.count, method_names[chosen.how],
            pdf_names[chosen_pdf]);
     write_kernels(&rsm, pdfs[last], pdf_names[last], o);
