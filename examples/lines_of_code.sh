@@ -51,8 +51,8 @@ fast() {
     lines $GENERATE kernel_fast
 }
 split() {
-    lines fis.h lobe_fis_clean lobe_fis_clean_pdf fis_split_build lobe_fis_mass lobe_fis_strip lobe_fis_split fis_split \
-        lobe_fis_inside lobe_fis_overlap fis_cell_sum
+    lines fis.h lobe_fis_clean lobe_fis_clean_pdf fis_split_build lobe_fis_mass lobe_fis_strip lobe_fis_split \
+        fis_split lobe_fis_inside lobe_fis_overlap fis_cell_sum
     lines $GENERATE texel_moments find_moments generate_split
 }
 labelling() { pyramid && warp && lines $GENERATE texel_moments sample_texels lights_of_sums; }

@@ -30,8 +30,8 @@ void vpl_map_fill(vpl_map *map, const buffer *from);
 /* An RSM from PREFIX-position.pfm, -normal.pfm and -flux.pfm (3 channels each) and -alpha.pfm (1), all of one size.
    Position and normal are in world space, flux is the power that the texel reflects. The files do not say which
    component reflects it: texels of alpha 1 are diffuse, all others specular, towards the mirror direction of `light`;
-   null is right where there are none. A flux of 0 means nothing hit. Gives up, with a message, on what cannot be read or
-   is out of range. */
+   null is right where there are none. A flux of 0 means nothing hit. Gives up, with a message, on what cannot be read
+   or is out of range. */
 vpl_map vpl_map_read(const char *prefix, const vec3 *light);
 
 #endif

@@ -11,8 +11,8 @@
 void vsgl_shade(const vpl_map *map, const vsgl *lights, const shadow_map *maps, int light_count, vec3 *radiance,
                 const char *label);
 
-/* Interleaved sampling: the lights are divided among each `side` by `side` texels, as the seed draws. An estimate of the
-   same, and its mean over such a block has little of its noise. */
+/* Interleaved sampling: the lights are divided among each `side` by `side` texels, as the seed draws. An estimate of
+   the same, and its mean over such a block has little of its noise. */
 void vsgl_shade_interleaved(const vpl_map *map, const vsgl *lights, int light_count, int side, unsigned seed,
                             vec3 *radiance, const char *label);
 
