@@ -652,7 +652,7 @@ int main(int argc, char **argv) {
         {"--pdf P", OPTION_CHOICE, &o.pdf, 0, 0, "what they are placed by", pdf_choices},
         {"--view WxH", OPTION_SIZE, &o.view, 16, 4096, "of the G-buffer that view lights are made of", 0},
         {"--view-lights N", OPTION_WHOLE, &o.view_lights, 1, 65536, "that tell what the camera needs", 0},
-        {"--interleave N", OPTION_WHOLE, &o.interleave, 1, 64, "N x N texels of the RSM share them; 1: no noise", 0},
+        {"--interleave N", OPTION_WHOLE, &o.interleave, 1, 16, "N x N texels of the RSM share them; 1: no noise", 0},
         {"--frames N", OPTION_WHOLE, &o.frames, 2, 1000, "that flicker is measured over", 0},
         {"--samples N", OPTION_WHOLE, &o.samples, 2, 1000000, "samples per pixel of the reference", 0},
         OPTION_OF_SEED(&o.seed),
