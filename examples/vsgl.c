@@ -29,7 +29,7 @@
 
 enum {
     RSM_SIZE = 512,
-    REPEATS = 9,          /* of timings */
+    REPEATS = 7,          /* of timings */
     KERNELS_SHOWN = 256,  /* in a panel */
     FINEST_LIGHTS = 8192, /* of what flicker is compared with */
     RECEIVER_STEP = 4,    /* flicker is looked at in pixels this many times as large */
@@ -672,7 +672,7 @@ int main(int argc, char **argv) {
     o.kernels.value[0] = 1;
     o.view_lights = 2048;
     o.interleave = 8;
-    o.frames = 8;
+    o.frames = 6;
     o.samples = 256;
     o.out = "build/vsgl";
     for (i = 0; i <= METHODS; i++) method_choices[i + 1] = method_names[i];
