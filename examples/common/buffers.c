@@ -34,6 +34,7 @@ buffer buffer_camera(const scene *world, int width, int height) {
             vec3 dir = vec3_normalize(lobe_add(forward, lobe_add(lobe_scale(right, x), lobe_scale(up, y))));
             t->valid = scene_trace(world, world->eye.position, dir, &t->hit);
             t->view = lobe_scale(dir, -1);
+            t->flux = lobe_vector(1, 1, 1);
         }
         progress_step(&line);
     }

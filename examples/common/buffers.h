@@ -7,7 +7,7 @@
 typedef struct {
     surface hit;
     vec3 view; /* towards the viewer: the camera, or the light for an RSM */
-    vec3 flux; /* RSM: power that the light sends through the texel, watts */
+    vec3 flux; /* RSM: power that the light sends through the texel, watts; camera: importance, 1 in every pixel */
     int valid; /* 0: nothing hit */
 } texel;
 

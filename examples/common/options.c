@@ -28,6 +28,8 @@ static void print_default(const option *o) {
     case OPTION_CHOICE:
         printf("(default %s)", o->choices[*(const int *)o->value]);
         break;
+    case OPTION_PLACE:
+        break;
     }
 }
 
@@ -43,6 +45,9 @@ static void print_range(const option *o) {
         break;
     case OPTION_SIZE:
         printf(", %gx%g to %gx%g ", o->low, o->low, o->high, o->high);
+        break;
+    case OPTION_PLACE:
+        printf(", each %.10g to %.10g", o->low, o->high);
         break;
     case OPTION_LIST:
         printf(", up to %d of them, %.10g to %.10g ", OPTIONS_MAX_LIST, o->low, o->high);
@@ -81,12 +86,21 @@ static int whole(const option *o, const char **text, int *value) {
     return 1;
 }
 
-static int read_real(const option *o, const char *text) {
+/* The same for a number that need not be whole. */
+static int real(const option *o, const char **text, float *value) {
     char *end;
-    double number = strtod(text, &end);
-    if (end == text || *end || !(number >= o->low && number <= o->high)) return 0;
-    *(float *)o->value = (float)number;
+    double number = strtod(*text, &end);
+    if (end == *text || !(number >= o->low && number <= o->high)) return 0;
+    *value = (float)number;
+    *text = end;
     return 1;
+}
+
+static int read_place(const option *o, const char *text) {
+    option_place *place = (option_place *)o->value;
+    if (!real(o, &text, &place->x) || *text++ != ',' || !real(o, &text, &place->y) || *text++ != ',') return 0;
+    place->given = 1;
+    return real(o, &text, &place->z) && !*text;
 }
 
 static int read_size(const option *o, const char *text) {
@@ -121,13 +135,15 @@ static int read_value(const option *o, const char *text) {
     case OPTION_WHOLE:
         return whole(o, &text, (int *)o->value) && !*text;
     case OPTION_REAL:
-        return read_real(o, text);
+        return real(o, &text, (float *)o->value) && !*text;
     case OPTION_SIZE:
         return read_size(o, text);
     case OPTION_LIST:
         return read_list(o, text);
     case OPTION_CHOICE:
         return read_choice(o, text);
+    case OPTION_PLACE:
+        return read_place(o, text);
     case OPTION_TEXT:
         break;
     }

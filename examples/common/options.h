@@ -2,7 +2,15 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
-typedef enum { OPTION_WHOLE, OPTION_REAL, OPTION_TEXT, OPTION_SIZE, OPTION_LIST, OPTION_CHOICE } option_kind;
+typedef enum {
+    OPTION_WHOLE,
+    OPTION_REAL,
+    OPTION_TEXT,
+    OPTION_SIZE,
+    OPTION_LIST,
+    OPTION_CHOICE,
+    OPTION_PLACE
+} option_kind;
 
 enum { OPTIONS_MAX_LIST = 8 };
 
@@ -14,6 +22,11 @@ typedef struct {
     int count, value[OPTIONS_MAX_LIST]; /* as given */
 } option_list;
 
+typedef struct {
+    int given;
+    float x, y, z;
+} option_place;
+
 /* What follows an option's name, and where it goes: that holds the default.
 
    kind     value             may be
@@ -22,7 +35,8 @@ typedef struct {
    TEXT     const char **     anything but empty; there is no default where it points to null
    SIZE     option_size *     WxH, both low to high
    LIST     option_list *     whole numbers, each low to high, with commas between
-   CHOICE   int *             the index of one of `choices`, which null closes */
+   CHOICE   int *             the index of one of `choices`, which null closes
+   PLACE    option_place *    X,Y,Z, each low to high; there is no default where it is not given */
 typedef struct {
     const char *name; /* and its value's: "--seed N" */
     option_kind kind;

@@ -222,14 +222,18 @@ static void add_quad(scene *world, material look, vec3 center, vec3 edge_u, vec3
     s->normal = vec3_normalize(lobe_cross(edge_u, edge_v));
 }
 
+void spot_aim(spot_light *spot, vec3 position, vec3 target) {
+    spot->position = position;
+    spot->target = target;
+    spot->forward = vec3_normalize(lobe_sub(target, position));
+    scene_frame(spot->forward, &spot->right, &spot->up);
+}
+
 static void aim(scene *world, vec3 position, vec3 target, float intensity, float cone) {
-    world->spot.position = position;
-    world->spot.target = target;
     world->spot.intensity = lobe_vector(intensity, 0.93f * intensity, 0.83f * intensity);
     world->spot.cone = cone;
     world->spot.tangent = tanf(cone);
-    world->spot.forward = vec3_normalize(lobe_sub(target, position));
-    scene_frame(world->spot.forward, &world->spot.right, &world->spot.up);
+    spot_aim(&world->spot, position, target);
 }
 
 scene scene_room(void) {

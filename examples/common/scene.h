@@ -90,6 +90,9 @@ int scene_visible(const scene *world, vec3 a, vec3 normal_a, vec3 b, vec3 normal
 /* Radiant intensity of the spot light in a direction. */
 vec3 spot_intensity(const spot_light *spot, vec3 dir);
 
+/* Moves a spot light and turns it to what it is to light. */
+void spot_aim(spot_light *spot, vec3 position, vec3 target);
+
 /* Right, up and forward of a viewer who looks along a direction. */
 void scene_frame(vec3 forward, vec3 *right, vec3 *up);
 
