@@ -4,7 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHANNELS = sizeof(vsgl_moments) / sizeof(float), BISECTIONS = 12 };
+enum { CHANNELS = sizeof(vsgl_moments) / sizeof(float), BISECTIONS = 12, BLOCK = 32 };
+
+/* clang would make gathers and scatters of them, which take twice as long. */
+#ifdef __clang__
+#define LOOP_BETWEEN_PLANES _Pragma("clang loop vectorize(disable)")
+#else
+#define LOOP_BETWEEN_PLANES
+#endif
 
 const char *const method_names[METHODS + 1] = {"nearest",  "density",  "bisection", "fast", "split",
                                                "kmeans2d", "kmeans3d", "transform", NULL};
@@ -69,15 +76,113 @@ static double lap(double *clock) {
     return since;
 }
 
+static inline void store(float (*planes)[BLOCK], int k, int i, vec3 v) {
+    planes[k][i] = v.x;
+    planes[k + 1][i] = v.y;
+    planes[k + 2][i] = v.z;
+}
+
+static inline vec3 load(float (*planes)[BLOCK], int k, int i) {
+    return lobe_vector(planes[k][i], planes[k + 1][i], planes[k + 2][i]);
+}
+
 static vsgl_moments texel_moments(const vpl_map *map, const vpl *t) {
     return vsgl_moments_from_vpl(lobe_sub(t->position, map->center), t->normal, t->view, t->diffuse, t->specular,
                                  t->alpha);
 }
 
-/* Additional RSM: the sums of each texel's one virtual point light */
-static void find_moments(const vpl_map *map, vsgl_moments *moments) {
+/* A run of texels' moments as planes: loops over them become vector code. */
+static void find_block(const vpl_map *map, int first, int count, float (*sums)[BLOCK]) {
+    const vec3 center = map->center;
+    float t[sizeof(vpl) / sizeof(float)][BLOCK];
     int i;
-    for (i = 0; i < map->width * map->height; i++) moments[i] = texel_moments(map, &map->texels[i]);
+
+    LOOP_BETWEEN_PLANES
+    for (i = 0; i < count; i++) {
+        const vpl *v = &map->texels[first + i];
+        store(t, 0, i, v->position);
+        store(t, 3, i, v->normal);
+        store(t, 6, i, v->view);
+        store(t, 9, i, v->diffuse);
+        store(t, 12, i, v->specular);
+        t[15][i] = v->alpha;
+    }
+    for (i = 0; i < count; i++) {
+        const vsgl_moments m = vsgl_moments_from_vpl(lobe_sub(load(t, 0, i), center), load(t, 3, i), load(t, 6, i),
+                                                     load(t, 9, i), load(t, 12, i), t[15][i]);
+        store(sums, 0, i, m.power[0]);
+        store(sums, 3, i, m.power[1]);
+        store(sums, 6, i, m.direction[0]);
+        store(sums, 9, i, m.direction[1]);
+        store(sums, 12, i, m.position);
+        sums[15][i] = m.position_squared;
+    }
+}
+
+/* Additional RSM: the sums of each texel's one virtual point light */
+static void find_moments(const vpl_map *map, float *moments) {
+    const int texels = map->width * map->height;
+    float sums[CHANNELS][BLOCK];
+    int first, i, k;
+    for (first = 0; first < texels; first += BLOCK) {
+        const int count = texels - first < BLOCK ? texels - first : BLOCK;
+        find_block(map, first, count, sums);
+
+        LOOP_BETWEEN_PLANES
+        for (i = 0; i < count; i++) {
+            for (k = 0; k < CHANNELS; k++) moments[k] = sums[k][i];
+            moments += CHANNELS;
+        }
+    }
+}
+
+/* Level 1 of their pyramid: few kernels are so small that they need level 0, which has thrice the size of all others
+   together and is not stored. */
+static void find_halved_moments(const vpl_map *map, float *moments) {
+    float sums[CHANNELS][BLOCK], below[CHANNELS][BLOCK];
+    int row, column, i, k;
+    for (row = 0; row < map->height; row += 2) {
+        for (column = 0; column < map->width; column += BLOCK) {
+            const int left = map->width - column, count = left < BLOCK ? left : BLOCK;
+            const int first = row * map->width + column;
+            memset(below, 0, sizeof below);
+            find_block(map, first, count, sums);
+            if (row + 1 < map->height) find_block(map, first + map->width, count, below);
+            for (k = 0; k < CHANNELS; k++) {
+                for (i = 0; i < count; i++) sums[k][i] = 0.25f * (sums[k][i] + below[k][i]);
+                if (count < BLOCK) sums[k][count] = 0; /* beyond an odd border */
+            }
+
+            LOOP_BETWEEN_PLANES
+            for (i = 0; i < count; i += 2) {
+                for (k = 0; k < CHANNELS; k++) moments[k] = sums[k][i] + sums[k][i + 1];
+                moments += CHANNELS;
+            }
+        }
+    }
+}
+
+/* What fis_fetch gives for the pyramid with level 0; `above` are the others. */
+static vsgl_moments fetch_moments(const vpl_map *map, const fis_pyramid *above, float u, float v, float level) {
+    const float x = lobe_min(lobe_max(u * (float)map->width - 0.5f, 0), (float)(map->width - 1));
+    const float y = lobe_min(lobe_max(v * (float)map->height - 0.5f, 0), (float)(map->height - 1));
+    const float half_u = u * (float)map->width / (float)(2 * above->width);
+    const float half_v = v * (float)map->height / (float)(2 * above->height);
+    const int column = (int)x, row = (int)y;
+    vsgl_moments sum;
+    int k;
+    fis_fetch(above, half_u, half_v, level - 1, (float *)&sum);
+    if (level >= 1) return sum;
+    sum = vsgl_moments_scale(sum, level);
+    for (k = 0; k < 4; k++) {
+        const int across = column + (k & 1), down = row + (k >> 1);
+        const float part = (k & 1 ? x - (float)column : 1 - (x - (float)column)) *
+                           (k >> 1 ? y - (float)row : 1 - (y - (float)row)) * (1 - level);
+        if (part > 0)
+            sum = vsgl_moments_add(
+                sum, vsgl_moments_scale(texel_moments(map, &map->texels[down * map->width + across]), part));
+    }
+    return sum;
 }
 
 /* A kernel's centre: a point of the lattice, shifted by the seed, to a position by the PDF */
@@ -134,8 +239,7 @@ static void sample_filtered(generator *g, const vpl_map *map, const fis_pyramid 
     for (i = 0; i < set->count; i++) {
         const fis_sample center = sample_center(pdf, i, set->count, seed);
         const kernel size = kernel_of(pdf, &center, set->count, k);
-        vsgl_moments cluster;
-        fis_fetch(moments, center.u, center.v, size.level, (float *)&cluster);
+        const vsgl_moments cluster = fetch_moments(map, moments, center.u, center.v, size.level);
         set->lights[i] = vsgl_from_moments(vsgl_moments_scale(cluster, size.scale), map->center);
         set->centers[i].u = center.u;
         set->centers[i].v = center.v;
@@ -146,11 +250,13 @@ static void sample_filtered(generator *g, const vpl_map *map, const fis_pyramid 
 static void generate_filtered(generator *g, const vpl_map *map, const float *density,
                               kernel (*kernel_of)(const fis_pyramid *, const fis_sample *, int, float), float k,
                               unsigned seed, light_set *set) {
+    const int width = (map->width + 1) / 2, height = (map->height + 1) / 2;
+    float *halved = g->moments + fis_pyramid_size(width, height, CHANNELS); /* in place it would not be vector code */
     double clock = progress_clock();
     fis_pyramid moments, pdf;
-    find_moments(map, (vsgl_moments *)g->moments);
+    find_halved_moments(map, halved);
     set->ms[STAGE_TEXELS] = lap(&clock);
-    moments = fis_build(g->moments, g->moments, map->width, map->height, CHANNELS);
+    moments = fis_build(g->moments, halved, width, height, CHANNELS);
     pdf = fis_build_pdf(g->pdf, density, map->width, map->height);
     set->ms[STAGE_PYRAMID] = lap(&clock);
     sample_filtered(g, map, &moments, &pdf, kernel_of, k, seed, set);
@@ -175,7 +281,7 @@ static void generate_split(generator *g, const vpl_map *map, const float *densit
     double clock = progress_clock();
     fis_split_table table;
     int i;
-    find_moments(map, (vsgl_moments *)g->moments);
+    find_moments(map, g->moments);
     set->ms[STAGE_TEXELS] = lap(&clock);
     table = fis_split_build(g->table, density, map->width, map->height);
     set->ms[STAGE_PYRAMID] = lap(&clock);
@@ -278,11 +384,17 @@ static void generate_kmeans(generator *g, const vpl_map *map, const float *densi
 
 /* Every cluster's sum in one pass over the texels, without a sort */
 static void sum_in_place(generator *g, const vpl_map *map, int count) {
-    int i;
+    const int texels = map->width * map->height;
+    float sums[CHANNELS][BLOCK];
+    int first, i, k;
     memset(g->sums, 0, (size_t)count * sizeof *g->sums);
-    for (i = 0; i < map->width * map->height; i++) {
-        vsgl_moments *sum = &g->sums[g->labels[i]];
-        *sum = vsgl_moments_add(*sum, texel_moments(map, &map->texels[i]));
+    for (first = 0; first < texels; first += BLOCK) {
+        const int run = texels - first < BLOCK ? texels - first : BLOCK;
+        find_block(map, first, run, sums);
+        for (i = 0; i < run; i++) {
+            float *sum = (float *)&g->sums[g->labels[first + i]];
+            for (k = 0; k < CHANNELS; k++) sum[k] += sums[k][i];
+        }
     }
 }
 
