@@ -25,15 +25,17 @@ GENERATE=examples/common/vsgl_generate.c KMEANS=examples/common/kmeans.c
 
 pyramid() {
     lines fis.h lobe_fis_clamp lobe_fis_clean_pdf lobe_fis_area lobe_fis_size fis_levels lobe_fis_layout \
-        lobe_fis_halve lobe_fis_reduce lobe_fis_total fis_build_pdf
+        lobe_fis_halve lobe_fis_fill lobe_fis_total fis_build_pdf
 }
 warp() { lines fis.h fis_lattice lobe_fis_choose fis_warp && lines $GENERATE sample_center; }
+block() { lines $GENERATE store load find_block; }
 filtered() {
     pyramid
     warp
     lines fis.h lobe_fis_clean fis_build lobe_fis_shrink lobe_fis_locate lobe_fis_mix lobe_fis_bilinear fis_fetch \
         lobe_fis_relative
-    lines $GENERATE texel_moments find_moments sample_filtered generate_filtered
+    block
+    lines $GENERATE texel_moments find_halved_moments fetch_moments sample_filtered generate_filtered
 }
 density() {
     filtered
@@ -53,18 +55,18 @@ fast() {
 split() {
     lines fis.h lobe_fis_clean lobe_fis_clean_pdf fis_split_build lobe_fis_mass lobe_fis_strip lobe_fis_split \
         fis_split lobe_fis_inside lobe_fis_overlap fis_cell_sum
-    lines $GENERATE texel_moments find_moments generate_split
+    block && lines $GENERATE find_moments generate_split
 }
-labelling() { pyramid && warp && lines $GENERATE texel_moments sample_texels lights_of_sums; }
+labelling() { pyramid && warp && lines $GENERATE sample_texels lights_of_sums; }
 kmeans() { # where texels are
     labelling
     lines $KMEANS swap select_middle widest_axis build kmeans_build squared_distance kmeans_nearest kmeans_sort
-    lines $GENERATE "$1" label_by_tree sum_sorted generate_kmeans
+    lines $GENERATE texel_moments "$1" label_by_tree sum_sorted generate_kmeans
 }
 transform() {
     labelling
     lines $KMEANS label_columns kmeans_label_image
-    lines $GENERATE sum_in_place generate_transform
+    block && lines $GENERATE sum_in_place generate_transform
 }
 
 row() { # name, the paper's figure, command...
