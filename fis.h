@@ -227,8 +227,10 @@ LOBE_API void lobe_fis_fill(const fis_pyramid *p, float *memory, const float *im
         int level, row = y; /* the level's last one so far */
         if (is_pdf)
             for (i = 0; i < count; i++) to[i] = lobe_fis_clean_pdf(from[i]);
-        else
+        else if (from != to)
             for (i = 0; i < count; i++) to[i] = lobe_fis_clean(from[i]);
+        else /* vector code, which that would not be here: its rows must not be the same */
+            for (i = 0; i < count; i++) to[i] = lobe_fis_clean(to[i]);
         for (level = 0; level + 1 < p->levels; level++) {
             int width = lobe_fis_size(p->width, level), height = lobe_fis_size(p->height, level);
             size_t size = (size_t)width * channels, half = (size_t)lobe_fis_size(width, 1) * channels;

@@ -251,12 +251,11 @@ static void generate_filtered(generator *g, const vpl_map *map, const float *den
                               kernel (*kernel_of)(const fis_pyramid *, const fis_sample *, int, float), float k,
                               unsigned seed, light_set *set) {
     const int width = (map->width + 1) / 2, height = (map->height + 1) / 2;
-    float *halved = g->moments + fis_pyramid_size(width, height, CHANNELS); /* in place it would not be vector code */
     double clock = progress_clock();
     fis_pyramid moments, pdf;
-    find_halved_moments(map, halved);
+    find_halved_moments(map, g->moments);
     set->ms[STAGE_TEXELS] = lap(&clock);
-    moments = fis_build(g->moments, halved, width, height, CHANNELS);
+    moments = fis_build(g->moments, g->moments, width, height, CHANNELS);
     pdf = fis_build_pdf(g->pdf, density, map->width, map->height);
     set->ms[STAGE_PYRAMID] = lap(&clock);
     sample_filtered(g, map, &moments, &pdf, kernel_of, k, seed, set);
