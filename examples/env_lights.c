@@ -556,16 +556,6 @@ static double rmse(const vec3 *values, const vec3 *wanted, int count) {
     return count ? sqrt(sum / (3.0 * count)) : 0;
 }
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *times) {
-    qsort(times, REPEATS, sizeof *times, ascending);
-    return times[REPEATS / 2];
-}
-
 static env_source prepare(const environment *map) {
     const size_t texels = (size_t)map->width * (size_t)map->height;
     double times[3][REPEATS];
@@ -589,9 +579,9 @@ static env_source prepare(const environment *map) {
         source.table = fis_split_build(source.sums, source.density, map->width, map->height);
         times[2][k] = progress_clock() - started;
     }
-    source.moments_ms = median(times[0]);
-    source.pyramid_ms = median(times[1]);
-    source.table_ms = median(times[2]);
+    source.moments_ms = progress_median(times[0], REPEATS);
+    source.pyramid_ms = progress_median(times[1], REPEATS);
+    source.table_ms = progress_median(times[2], REPEATS);
     source.flux = 0;
     for (i = 0; i < texels; i++) source.flux += (double)source.density[i];
     return source;
@@ -690,9 +680,9 @@ static void render(const settings *o, const env_source *source, const sphere_vie
         if (fabs(ratio - 1) >= fabs(worst - 1)) worst = ratio;
     }
     build = source->moments_ms + (how == RULE_SPLIT ? source->table_ms : source->pyramid_ms);
-    printf("%6d %-9s %8.2f %8.3f %9.1f %9.5f %9.5f %9.5f   %.6f\n", count, rule_names[how], build, median(times),
-           shading / turns, sqrt(squares[SURFACE_DIFFUSE] / turns), sqrt(squares[SURFACE_ROUGH] / turns),
-           sqrt(squares[SURFACE_GLOSSY] / turns), worst);
+    printf("%6d %-9s %8.2f %8.3f %9.1f %9.5f %9.5f %9.5f   %.6f\n", count, rule_names[how], build,
+           progress_median(times, REPEATS), shading / turns, sqrt(squares[SURFACE_DIFFUSE] / turns),
+           sqrt(squares[SURFACE_ROUGH] / turns), sqrt(squares[SURFACE_GLOSSY] / turns), worst);
     fflush(stdout);
     free(lights);
     free(cells);

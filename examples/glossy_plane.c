@@ -212,11 +212,6 @@ static void shade_truth(const plane_view *v, glossy look, int rings, float *radi
 
 /* ---- what is said and shown of them ---- */
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double nanoseconds(const plane_view *v, glossy look, float *radiance,
                           void (*shade)(const plane_view *v, glossy look, float *restrict radiance)) {
     double times[REPEATS];
@@ -226,8 +221,7 @@ static double nanoseconds(const plane_view *v, glossy look, float *radiance,
         for (turn = 0; turn < turns; turn++) shade(v, look, radiance);
         times[repeat] = (progress_clock() - started) * 1e6 / ((double)v->count * turns);
     }
-    qsort(times, REPEATS, sizeof *times, ascending);
-    return times[REPEATS / 2];
+    return progress_median(times, REPEATS);
 }
 
 static double rmse(const float *values, const float *wanted, int count) {

@@ -764,18 +764,6 @@ static double search(study *s, method m, float step, float parameter[2], progres
 
 enum { ROUNDS = 5 };
 
-static double median(double *times) {
-    int i, k;
-    for (i = 1; i < ROUNDS; i++) {
-        for (k = i; k > 0 && times[k] < times[k - 1]; k--) {
-            double last = times[k];
-            times[k] = times[k - 1];
-            times[k - 1] = last;
-        }
-    }
-    return times[ROUNDS / 2];
-}
-
 /* Milliseconds of each method on one core, turn by turn */
 static void time_methods(study *s, float parameters[METHODS][2], double ms[METHODS]) {
     double times[METHODS][ROUNDS];
@@ -789,7 +777,7 @@ static void time_methods(study *s, float parameters[METHODS][2], double ms[METHO
             times[m][round] = progress_clock() - started;
         }
     }
-    for (m = 0; m < METHODS; m++) ms[m] = median(times[m]);
+    for (m = 0; m < METHODS; m++) ms[m] = progress_median(times[m], ROUNDS);
 }
 
 /* ---- files ---- */

@@ -180,16 +180,6 @@ static image trace_reference(const scene *world, const buffer *view, const setti
     return reference;
 }
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *times) {
-    qsort(times, REPEATS, sizeof *times, ascending);
-    return times[REPEATS / 2];
-}
-
 /* ---- how long generation takes: tables 1 and 2 ---- */
 
 typedef struct {
@@ -215,7 +205,7 @@ static generation_times time_generation(const vpl_map *map, const float *pdf, in
     }
     progress_end(&line);
     for (how = 0; how < METHODS; how++) {
-        for (stage = 0; stage < STAGES; stage++) result.ms[how][stage] = median(times[how][stage]);
+        for (stage = 0; stage < STAGES; stage++) result.ms[how][stage] = progress_median(times[how][stage], REPEATS);
     }
     light_set_free(&set);
     generator_free(&g);
@@ -362,9 +352,8 @@ static flicker sum_up(flicker_sums *f, int pixels, int frames) {
         result.rms += variance / pixels;
         if (f->radiance[i] > 0) f->changes[lit++] = sqrt(variance) / (f->radiance[i] / frames);
     }
-    qsort(f->changes, (size_t)lit, sizeof *f->changes, ascending);
     result.rms = sqrt(result.rms);
-    result.relative = lit ? f->changes[lit / 2] : 0;
+    result.relative = lit ? progress_median(f->changes, lit) : 0;
     return result;
 }
 

@@ -1,5 +1,6 @@
 #include "progress.h"
 #include <stdio.h>
+#include <stdlib.h>
 #ifdef _OPENMP
 #include <omp.h>
 #else
@@ -12,6 +13,16 @@ double progress_clock(void) {
 #else
     return (double)clock() * 1e3 / CLOCKS_PER_SEC;
 #endif
+}
+
+static int ascending(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double progress_median(double *values, int count) {
+    qsort(values, (size_t)count, sizeof *values, ascending);
+    return values[count / 2];
 }
 
 progress progress_begin(const char *label, int total) {

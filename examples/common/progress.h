@@ -5,6 +5,9 @@
 /* Milliseconds since some moment. Without OpenMP it is the process's time, which is then the same but for idling. */
 double progress_clock(void);
 
+/* Of times, or others; sorts them. */
+double progress_median(double *values, int count);
+
 typedef struct {
     const char *label;
     int done, total, visible;
