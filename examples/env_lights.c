@@ -13,9 +13,9 @@
 #include "../fis.h"
 #include "common/brdf.h"
 #include "common/fail.h"
-#include "common/file.h"
 #include "common/image.h"
 #include "common/options.h"
+#include "common/output.h"
 #include "common/parallel.h"
 #include "common/progress.h"
 #include "common/raster.h"
@@ -706,8 +706,6 @@ int main(int argc, char **argv) {
     sphere_view view;
     vec3 *reference[SURFACES], *radiance;
     image sheet;
-    const char *wrong = "name too long";
-    char path[1024];
     double edge;
     int i, k;
 
@@ -716,8 +714,7 @@ int main(int argc, char **argv) {
                  "cells of equal flux, and prints the speed and the error of each against the map.\n"
                  "A map is latitude by longitude: its top row up (+y), its centre ahead (-z), +x to the\n"
                  "right of that. One channel is grey. What is negative or no number counts as 0.");
-    if (snprintf(path, sizeof path, "%s.png", o.out) < (int)sizeof path) wrong = file_check(path);
-    if (wrong) give_up(path, wrong);
+    output_check(o.out, ".png");
     if (o.map)
         read_map(o.map, &map);
     else
@@ -725,7 +722,6 @@ int main(int argc, char **argv) {
     edge = prepare_map(&map, (seam_kind)o.seam, o.map ? o.map : "sky");
     view = see_sphere(o.size.width, o.size.height, 1);
     sheet = image_create((1 + RULES) * (o.size.width + 2) - 2, SURFACES * (o.size.height + 2) - 2);
-    if (!sheet.pixels) give_up("image", "not enough memory");
     radiance = (vec3 *)allocate("image", (size_t)view.count, sizeof *radiance);
     for (k = 0; k < SURFACES; k++) reference[k] = (vec3 *)allocate("image", (size_t)view.count, sizeof **reference);
 
@@ -741,10 +737,9 @@ int main(int argc, char **argv) {
         for (k = 0; k < RULES; k++)
             render(&o, &source, &view, (rule)k, o.lights.value[i], reference, radiance, i ? NULL : &sheet);
     }
-    wrong = image_write_png(path, &sheet, 0.8f);
-    if (wrong) give_up(path, wrong);
-    printf("\nwrote %s: mirror, alpha .1, alpha .3 and diffuse; the map itself, then %d lights by each rule\n", path,
-           o.lights.value[0]);
+    output_picture(o.out, ".png", &sheet, 0.8f);
+    printf("\nwrote %s.png: mirror, alpha .1, alpha .3 and diffuse; the map itself, then %d lights by each rule\n",
+           o.out, o.lights.value[0]);
     for (k = 0; k < SURFACES; k++) free(reference[k]);
     free(radiance);
     free_source(&source);

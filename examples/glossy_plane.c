@@ -8,9 +8,9 @@
 */
 #include "../asg.h"
 #include "common/fail.h"
-#include "common/file.h"
 #include "common/image.h"
 #include "common/options.h"
+#include "common/output.h"
 #include "common/parallel.h"
 #include "common/progress.h"
 #include <stdio.h>
@@ -268,21 +268,17 @@ int main(int argc, char **argv) {
     plane_view view;
     image sheet;
     float *radiance[PANELS];
-    char path[1024];
-    const char *wrong = "name too long";
     int m, k, i, rings;
 
     options_read(options, argc, argv,
                  "Draws a sphere light over a glossy plane, reflection and light as SGs and ASGs,\n"
                  "and prints the speed and the error of each against numerical integration.");
-    if (snprintf(path, sizeof path, "%s.png", out) < (int)sizeof path) wrong = file_check(path);
-    if (wrong) give_up(path, wrong);
+    output_check(out, ".png");
     for (rings = 1; 3 * (rings + 1) * (rings + 1) <= samples; rings++) continue;
     view = see_plane(size.width, size.height);
     sheet = image_create(PANELS * (size.width + 2) - 2, 2 * MATERIALS * (size.height + 2) - 2);
     for (k = 0; k < PANELS; k++)
         radiance[k] = (float *)allocate("image", (size_t)size.width * (size_t)size.height, sizeof(float));
-    if (!sheet.pixels) give_up("image", "not enough memory");
 
     printf("%dx%d pixels a panel, %d directions a pixel of the truth\n\n", size.width, size.height, 3 * rings * rings);
     printf("material    panel                 RMSE  relative  ns/pixel\n");
@@ -308,10 +304,10 @@ int main(int argc, char **argv) {
         }
         say_forms(&view, look, 0.01f);
     }
-    wrong = image_write_png(path, &sheet, 1);
-    if (wrong) give_up(path, wrong);
-    printf("\nwrote %s: a column for each panel; for each material its panels, and their differences from the truth\n",
-           path);
+    output_picture(out, ".png", &sheet, 1);
+    printf(
+        "\nwrote %s.png: a column for each panel; for each material its panels, and their differences from the truth\n",
+        out);
     for (k = 0; k < PANELS; k++) free(radiance[k]);
     for (k = 0; k < PLANES; k++) free(view.plane[k]);
     free(view.pixel);

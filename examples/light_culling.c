@@ -11,9 +11,10 @@
 #include "common/brdf.h"
 #include "common/buffers.h"
 #include "common/fail.h"
-#include "common/file.h"
+#include "common/hash.h"
 #include "common/image.h"
 #include "common/options.h"
+#include "common/output.h"
 #include "common/parallel.h"
 #include "common/progress.h"
 #include <stdio.h>
@@ -59,10 +60,7 @@ typedef struct {
 } light_list;
 
 static unsigned hash(unsigned x, unsigned seed) {
-    x = x * 0x9E3779B1u + seed * 0xC2B2AE3Du;
-    x = (x ^ (x >> 16)) * 0x7FEB352Du;
-    x = (x ^ (x >> 15)) * 0x846CA68Bu;
-    return x ^ (x >> 16);
+    return hash_mix(x * 0x9E3779B1u + seed * 0xC2B2AE3Du);
 }
 
 static void add_light(light_list *list, int *count, const texel *t, vec3 reflectance, unsigned bits) {
@@ -639,7 +637,6 @@ static void draw_heat(const tile *tiles, int tile_count, image *heat) {
 static image halved(const image *whole) {
     image half = image_create(whole->width / 2, whole->height / 2);
     int x, y;
-    if (!half.pixels) give_up("images", "not enough memory");
     for (y = 0; y < half.height; y++) {
         for (x = 0; x < half.width; x++) {
             const vec3 *p = &whole->pixels[2 * y * whole->width + 2 * x], *q = p + whole->width;
@@ -653,12 +650,6 @@ static void paste_half(image *sheet, const image *picture, int column, int row) 
     image half = halved(picture);
     image_paste(sheet, &half, column * half.width, row * half.height);
     image_free(&half);
-}
-
-static image create(int width, int height) {
-    image picture = image_create(width, height);
-    if (!picture.pixels) give_up("images", "not enough memory");
-    return picture;
 }
 
 /* Direct light and the indirect irradiance's reflection */
@@ -679,20 +670,17 @@ static void compose(const scene *world, const buffer *view, const image *indirec
 
 static const char *const picture_names[2] = {"", "-false-positives"};
 
-static void picture_path(char path[1024], const char *prefix, int which, int picture) {
-    if (snprintf(path, 1024, "%s-%s%s.png", prefix, scene_names[which], picture_names[picture]) >= 1024)
-        give_up(prefix, "name too long");
+static void name_picture(char rest[64], int which, int picture) {
+    snprintf(rest, 64, "-%s%s.png", scene_names[which], picture_names[picture]);
 }
 
 static void check_paths(const char *prefix) {
-    char path[1024];
+    char rest[64];
     int which, picture;
     for (which = 0; which < SCENES; which++) {
         for (picture = 0; picture < 2; picture++) {
-            const char *wrong;
-            picture_path(path, prefix, which, picture);
-            wrong = file_check(path);
-            if (wrong) give_up(path, wrong);
+            name_picture(rest, which, picture);
+            output_check(prefix, rest);
         }
     }
 }
@@ -743,15 +731,15 @@ static void vary_delta(renderer *r, const settings *o, const tile *reference, in
 
 static void show_scene(int which, const settings *o) {
     pictures p;
-    char path[1024];
+    char rest[64];
     int i, k, picture;
-    p.noisy = create(o->size.width, o->size.height);
-    p.smooth = create(o->size.width, o->size.height);
-    p.wanted = create(o->size.width, o->size.height);
-    p.heat = create(o->size.width, o->size.height);
-    p.composed = create(o->size.width, o->size.height);
-    p.results = create(2 * o->size.width, 2 * o->size.height);
-    p.heats = create(SPHEROID_CLOSE * (o->size.width / 2), ALPHAS * (o->size.height / 2));
+    p.noisy = image_create(o->size.width, o->size.height);
+    p.smooth = image_create(o->size.width, o->size.height);
+    p.wanted = image_create(o->size.width, o->size.height);
+    p.heat = image_create(o->size.width, o->size.height);
+    p.composed = image_create(o->size.width, o->size.height);
+    p.results = image_create(2 * o->size.width, 2 * o->size.height);
+    p.heats = image_create(SPHEROID_CLOSE * (o->size.width / 2), ALPHAS * (o->size.height / 2));
     printf("\n%s\n\n%26s%9s%9s%9s%9s%9s%9s%9s  %-8s %s\n", scene_names[which], "VPLs", "false", "in its", "bounds",
            "culling", "shading", "total", "RMSE", "denoised", "mean");
     printf("alpha  volume    /px       /px   volume       ms       ms       ms       ms\n");
@@ -762,7 +750,6 @@ static void show_scene(int which, const settings *o) {
         tile *reference;
         int reference_count, kind;
         double smooth_error = 0;
-        if (!view.texels || !rsm.texels) give_up("images", "not enough memory");
         r.world = &world;
         r.view = &view;
         r.frame = view_of(&world);
@@ -808,11 +795,9 @@ static void show_scene(int which, const settings *o) {
         buffer_free(&rsm);
     }
     for (picture = 0; picture < 2; picture++) {
-        const char *wrong;
-        picture_path(path, o->out, which, picture);
-        wrong = image_write_png(path, picture ? &p.heats : &p.results, 1);
-        if (wrong) give_up(path, wrong);
-        printf("wrote %s: %s\n", path,
+        name_picture(rest, which, picture);
+        output_picture(o->out, rest, picture ? &p.heats : &p.results, 1);
+        printf("wrote %s%s: %s\n", o->out, rest,
                picture ? "glossy VPLs per pixel (brightness) and false ones (red), by volume and alpha"
                        : "direct and indirect light, alpha .4, .2; .1, .05");
     }

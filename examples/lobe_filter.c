@@ -12,8 +12,10 @@
 #include "common/fail.h"
 #include "common/file.h"
 #include "common/glossy.h"
+#include "common/hash.h"
 #include "common/image.h"
 #include "common/options.h"
+#include "common/output.h"
 #include "common/parallel.h"
 #include "common/progress.h"
 #include "common/raster.h"
@@ -170,18 +172,13 @@ static vec3 light_of(const surface *hit) {
 
 /* ---- path tracing ---- */
 
-static unsigned mix(unsigned x) {
-    x = (x ^ (x >> 16)) * 0x7FEB352Du;
-    x = (x ^ (x >> 15)) * 0x846CA68Bu;
-    return x ^ (x >> 16);
-}
-
 /* Four uniform numbers below 1: at random, or evenly spread over a pixel's draws (Roberts 2018) for the reference */
 static void draw(unsigned pixel, unsigned number, unsigned seed, int even, float u[4]) {
     static const double steps[4] = {0.8566748838545029, 0.733891856627126, 0.6287067210378087, 0.5385972572236101};
     unsigned k;
     for (k = 0; k < 4; k++) {
-        double x = (double)mix(mix(pixel * 0x9E3779B1u + seed) + (even ? 0 : number * 0x85EBCA77u) + k * 0xC2B2AE3Du);
+        double x = (double)hash_mix(hash_mix(pixel * 0x9E3779B1u + seed) + (even ? 0 : number * 0x85EBCA77u) +
+                                    k * 0xC2B2AE3Du);
         x = x / 4294967296.0 + (even ? number * steps[k] : 0);
         u[k] = (float)((int)((x - floor(x)) * 16777216)) / 16777216;
     }
@@ -267,12 +264,6 @@ typedef struct {
     int width, height;
 } frame;
 
-static image create(int width, int height) {
-    image picture = image_create(width, height);
-    if (!picture.pixels) give_up("images", "not enough memory");
-    return picture;
-}
-
 static frame frame_of(const scene *world, const subject *what, int width, int height) {
     frame f;
     int i;
@@ -280,7 +271,6 @@ static frame frame_of(const scene *world, const subject *what, int width, int he
     f.width = width;
     f.height = height;
     f.seen = buffer_camera(world, width, height);
-    if (!f.seen.texels) give_up("images", "not enough memory");
     f.looks = (glossy *)allocate("images", (size_t)width * (size_t)height, sizeof *f.looks);
     f.guides = (guide *)allocate("images", (size_t)width * (size_t)height, sizeof *f.guides);
     for (i = 0; i < width * height; i++) {
@@ -311,7 +301,7 @@ static vec3 shade_pixel(const frame *f, int i, int samples, unsigned seed, int e
 }
 
 static image shade_frame(const frame *f, int samples, unsigned seed, int even, const char *label) {
-    image result = create(f->width, f->height);
+    image result = image_create(f->width, f->height);
     progress line = progress_begin(label, f->height);
     int row;
     PARALLEL_FOR
@@ -633,7 +623,7 @@ static truth truth_of(const frame *f, int samples, unsigned seed, const char *la
     truth t;
     int i, k;
     for (k = 0; k < 2; k++) t.half[k] = shade_frame(f, samples > 1 ? samples / 2 : 1, seed + 1 + (unsigned)k, 1, label);
-    t.mean = create(f->width, f->height);
+    t.mean = image_create(f->width, f->height);
     for (i = 0; i < f->width * f->height; i++)
         t.mean.pixels[i] = lobe_scale(lobe_add(t.half[0].pixels[i], t.half[1].pixels[i]), 0.5f);
     return t;
@@ -665,7 +655,7 @@ static void study_begin(study *s, const subject *what, int width, int height, in
     s->f = frame_of(&world, what, width, height);
     s->noisy = shade_frame(&s->f, samples, seed, 0, what->name);
     s->wanted = truth_of(&s->f, reference, seed, what->name);
-    s->result = create(width, height);
+    s->result = image_create(width, height);
     s->room = planes_create(width, height, most_parts(&s->f));
     fill_colours(&s->room, &s->noisy);
 }
@@ -790,30 +780,14 @@ typedef struct {
     float field_of_view, beta, depth_variance;
 } settings;
 
-static void name_file(char path[1024], const char *prefix, const char *rest) {
-    if (snprintf(path, 1024, "%s%s", prefix, rest) >= 1024) give_up(prefix, "name too long");
-}
-
-static void check_file(const char *prefix, const char *rest) {
-    char path[1024];
-    const char *wrong;
-    name_file(path, prefix, rest);
-    wrong = file_check(path);
-    if (wrong) give_up(path, wrong);
-}
-
 static void write_picture(const char *prefix, const char *rest, const image *picture, const char *what) {
-    char path[1024];
-    const char *wrong;
-    name_file(path, prefix, rest);
-    wrong = image_write_png(path, picture, 1);
-    if (wrong) give_up(path, wrong);
-    printf("wrote %s: %s\n", path, what);
+    output_picture(prefix, rest, picture, 1);
+    printf("wrote %s%s: %s\n", prefix, rest, what);
 }
 
-static void begin_csv(file *f, char path[1024], const char *prefix, const char *rest) {
+static void begin_csv(file *f, char path[OUTPUT_NAME], const char *prefix, const char *rest) {
     const char *wrong;
-    name_file(path, prefix, rest);
+    output_name(path, prefix, rest);
     wrong = file_begin(f, path);
     if (wrong) give_up(path, wrong);
 }
@@ -826,7 +800,7 @@ static void end_csv(file *f, const char *what) {
 
 /* Twice the difference where something is glossy */
 static image difference(const frame *f, const image *got, const image *wanted) {
-    image result = create(f->width, f->height);
+    image result = image_create(f->width, f->height);
     int i;
     for (i = 0; i < f->width * f->height; i++) {
         vec3 d = lobe_sub(got->pixels[i], wanted->pixels[i]);
@@ -848,7 +822,7 @@ static void compare_similarities(const settings *o) {
     static const float sharpnesses[] = {1, 3, 10, 30, 100, 1000};
     enum { COLUMNS = sizeof sharpnesses / sizeof *sharpnesses, STEPS = 180 };
     float worst[COLUMNS], where[COLUMNS];
-    char path[1024];
+    char path[OUTPUT_NAME];
     file f;
     int i, k;
     begin_csv(&f, path, o->out, "-similarity.csv");
@@ -937,7 +911,7 @@ static int best_of_group(const curve *c, int group) {
 
 static void write_curve(const settings *o, const char *rest, const char *parameter, method m, const curve *c,
                         const char *what) {
-    char path[1024];
+    char path[OUTPUT_NAME];
     file f;
     int i, k, group;
     begin_csv(&f, path, o->out, rest);
@@ -1041,7 +1015,7 @@ static void show_scene(const settings *o, const shown_scene *which, const float 
     double error[METHODS], ms[METHODS];
     progress line = progress_begin(which->what.name, METHODS);
     char rest[64];
-    image sheet = create(SHEET_COLUMNS * o->size.width, 2 * o->size.height);
+    image sheet = image_create(SHEET_COLUMNS * o->size.width, 2 * o->size.height);
     study s;
     int m, k;
     study_begin(&s, &which->what, o->size.width, o->size.height, o->samples, o->reference, (unsigned)o->seed);
@@ -1138,7 +1112,7 @@ static void show_weights(const settings *o) {
     static const subject what = {"brushed", scene_gallery, look_brushed, 0};
     const int width = o->size.width, height = o->size.height, target = height * 11 / 20 * width + width / 2;
     scene world = what.build();
-    image sheet = create(2 * width, height);
+    image sheet = image_create(2 * width, height);
     frame f;
     float *weights[2], jump[2] = {0, 0};
     int i, k;
@@ -1346,8 +1320,8 @@ static void find_upsampling_best(const upsampler *first, const frame *f, const c
         upsampler u = first[k];
         double least = 1e300;
         float power, best = 0;
-        u.result = create(f->width, f->height);
-        u.history = create(f->width, f->height);
+        u.result = image_create(f->width, f->height);
+        u.history = image_create(f->width, f->height);
         for (power = d->low[0]; power <= d->high[0]; power += 1) {
             double error;
             u.parameter = exp2f(power);
@@ -1372,7 +1346,7 @@ static void show_upsampling(const settings *o) {
     const vec3 motion = {0.025f, 0, 0.01f}; /* of the ball in the middle, a frame */
     const unsigned seed = (unsigned)o->seed + 7;
     upsampler u[UPSAMPLERS];
-    image sheet = create(SHEET_COLUMNS * width, 2 * height);
+    image sheet = image_create(SHEET_COLUMNS * width, 2 * height);
     progress line = progress_begin("upsampling", FRAMES);
     double coarse_ms = 0, full_ms, count = 0;
     frame f, last;
@@ -1388,8 +1362,8 @@ static void show_upsampling(const settings *o) {
         u[k].temporal = k >> 1 & 1;
         u[k].adaptive = k >> 2;
         u[k].parameter = u[k].lobes ? lobe_beta : normal_variance;
-        u[k].result = create(width, height);
-        u[k].history = create(width, height);
+        u[k].result = image_create(width, height);
+        u[k].history = image_create(width, height);
         u[k].samples = (float *)allocate("images", (size_t)(width * height), sizeof(float));
         u[k].old_samples = (float *)allocate("images", (size_t)(width * height), sizeof(float));
     }
@@ -1478,9 +1452,9 @@ static vec3 texel_of(const raster *r, int i) {
     return lobe_vector(v[0], v[1], v[2]);
 }
 
-/* Not more than the limit in size; NaN is not. */
 static int is_within(vec3 v, float limit) {
-    return fabsf(v.x) <= limit && fabsf(v.y) <= limit && fabsf(v.z) <= limit;
+    return raster_in_range(v.x, -limit, limit) && raster_in_range(v.y, -limit, limit) &&
+           raster_in_range(v.z, -limit, limit);
 }
 
 /* In the camera's frame: x to the right, y up, z towards the viewer. A depth of 0: nothing there. */
@@ -1495,8 +1469,8 @@ static void read_guides(const settings *o, const raster *depth, const raster *no
             const float z = depth->values[i], alpha = alphas->values[i];
             vec3 n = texel_of(normals, i), view, unused;
             glossy look;
-            if (!(z >= 0 && z <= 1e9f)) refuse_texel(o->depth, x, y, "it is not from 0 to 1e9");
-            if (!(alpha >= 0 && alpha <= 1)) refuse_texel(o->alpha, x, y, "it is not from 0 to 1");
+            if (!raster_in_range(z, 0, 1e9f)) refuse_texel(o->depth, x, y, "it is not from 0 to 1e9");
+            if (!raster_in_range(alpha, 0, 1)) refuse_texel(o->alpha, x, y, "it is not from 0 to 1");
             if (!is_within(n, 1e6f)) refuse_texel(o->normal, x, y, "it is not a normal");
             if (!(z > 0)) continue;
             if (!(lobe_dot(n, n) > 1e-6f)) refuse_texel(o->normal, x, y, "its length is 0");
@@ -1511,11 +1485,11 @@ static void read_guides(const settings *o, const raster *depth, const raster *no
 }
 
 static void write_raster(const char *prefix, const image *picture) {
-    char path[1024];
+    char path[OUTPUT_NAME];
     const char *wrong;
     raster r;
     int i;
-    name_file(path, prefix, ".pfm");
+    output_name(path, prefix, ".pfm");
     r.width = picture->width;
     r.height = picture->height;
     r.channels = 3;
@@ -1541,13 +1515,13 @@ static void filter_buffers(const settings *o) {
     int i, row;
     if (!o->color || !o->depth || !o->normal || !o->alpha)
         give_up("buffers", "--color, --depth, --normal and --alpha are needed together");
-    check_file(o->out, ".pfm");
-    check_file(o->out, ".png");
+    output_check(o->out, ".pfm");
+    output_check(o->out, ".png");
     color = read_buffer(o->color, 3, NULL);
     depth = read_buffer(o->depth, 1, &color);
     normals = read_buffer(o->normal, 3, &color);
     alphas = read_buffer(o->alpha, 1, &color);
-    noisy = create(color.width, color.height);
+    noisy = image_create(color.width, color.height);
     for (i = 0; i < color.width * color.height; i++) {
         noisy.pixels[i] = texel_of(&color, i);
         if (!is_within(noisy.pixels[i], 1e30f))
@@ -1560,7 +1534,7 @@ static void filter_buffers(const settings *o) {
     free(normals.values);
     free(alphas.values);
     room = planes_create(noisy.width, noisy.height, 1);
-    result = create(noisy.width, noisy.height);
+    result = image_create(noisy.width, noisy.height);
     fill_colours(&room, &noisy);
     fill_planes(&room, guides, EQ12, &o->beta, o->depth_variance);
     line = progress_begin("filter", noisy.height);
@@ -1583,10 +1557,10 @@ static void check_study_files(const char *prefix) {
                                         "-upsampling.png"};
     char rest[64];
     int i;
-    for (i = 0; i < (int)(sizeof rests / sizeof *rests); i++) check_file(prefix, rests[i]);
+    for (i = 0; i < (int)(sizeof rests / sizeof *rests); i++) output_check(prefix, rests[i]);
     for (i = 0; i < SCENES; i++) {
         snprintf(rest, sizeof rest, "-%s.png", scenes[i].what.name);
-        check_file(prefix, rest);
+        output_check(prefix, rest);
     }
 }
 

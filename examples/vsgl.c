@@ -15,6 +15,7 @@
 #include "common/file.h"
 #include "common/image.h"
 #include "common/options.h"
+#include "common/output.h"
 #include "common/parallel.h"
 #include "common/path_trace.h"
 #include "common/progress.h"
@@ -69,7 +70,6 @@ static scene choose_scene(const settings *o) {
 static vpl_map render_rsm(const scene *world) {
     buffer rsm = buffer_rsm(world, RSM_SIZE);
     vpl_map map;
-    if (!rsm.texels) give_up("RSM", "not enough memory");
     map = vpl_map_create(&rsm, world->center);
     buffer_free(&rsm);
     return map;
@@ -79,7 +79,6 @@ static vpl_map render_rsm(const scene *world) {
 static vpl_map render_view(const scene *world, option_size size) {
     buffer view = buffer_camera(world, size.width, size.height);
     vpl_map map;
-    if (!view.texels) give_up("G-buffer", "not enough memory");
     map = vpl_map_create(&view, world->center);
     buffer_free(&view);
     return map;
@@ -153,16 +152,10 @@ static void light_directly(const scene *world, const buffer *view, image *direct
     progress_end(&line);
 }
 
-static image make_image(int width, int height) {
-    image picture = image_create(width, height);
-    if (!picture.pixels) give_up("images", "not enough memory");
-    return picture;
-}
-
 /* Indirect light by path tracing, in two halves whose difference tells the noise. */
 static image trace_reference(const scene *world, const buffer *view, const settings *o) {
     const double started = progress_clock();
-    image reference = make_image(view->width, view->height), half = make_image(view->width, view->height);
+    image reference = image_create(view->width, view->height), half = image_create(view->width, view->height);
     double noise;
     int i;
     if (!path_trace_indirect(world, view, o->samples / 2, 2 * (unsigned)o->seed, reference.pixels,
@@ -369,12 +362,12 @@ static void measure_flicker(const scene *first, const light_set *view_lights, pd
     const int most = most_lights(o) > FINEST_LIGHTS ? most_lights(o) : FINEST_LIGHTS, pixels = texel_count(&view);
     generator g = generator_create(RSM_SIZE, RSM_SIZE, most);
     light_set set = light_set_create(most);
-    image truth = make_image(size.width, size.height), picture = make_image(size.width, size.height);
+    image truth = image_create(size.width, size.height), picture = image_create(size.width, size.height);
     flicker_sums *sums = (flicker_sums *)allocate("images", (size_t)row_count, sizeof *sums);
     progress line = progress_begin("flicker", o->frames * row_count);
     int frame, i;
     for (i = 0; i < row_count; i++) {
-        sums[i].last = make_image(size.width, size.height);
+        sums[i].last = image_create(size.width, size.height);
         sums[i].changes = (double *)allocate("images", (size_t)pixels, sizeof(double));
         sums[i].radiance = (double *)allocate("images", (size_t)pixels, sizeof(double));
     }
@@ -448,28 +441,17 @@ enum { PICTURE_DIRECT, PICTURE_RESULT, PICTURE_REFERENCE, PICTURE_DIFFERENCE, PI
 static const char *const picture_names[PICTURES] = {"-direct.png",     "-result.png", "-reference.png",
                                                     "-difference.png", ".png",        "-kernels.png"};
 
-static void check_path(const char *prefix, const char *name) {
-    char path[1024];
-    const char *wrong = "name too long";
-    if (snprintf(path, sizeof path, "%s%s", prefix, name) < (int)sizeof path) wrong = file_check(path);
-    if (wrong) give_up(path, wrong);
-}
-
 static void write_picture(const char *prefix, int which, image *picture, float exposure) {
-    char path[1024];
-    const char *wrong;
-    snprintf(path, sizeof path, "%s%s", prefix, picture_names[which]);
-    wrong = image_write_png(path, picture, exposure);
-    if (wrong) give_up(path, wrong);
+    output_picture(prefix, picture_names[which], picture, exposure);
     image_free(picture);
 }
 
 static void write_pictures(const char *prefix, const image *direct, const image *indirect, const image *reference,
                            float exposure) {
     const int width = direct->width, height = direct->height, count = width * height;
-    image pictures[PICTURE_ALL], all = make_image(2 * width, 2 * height);
+    image pictures[PICTURE_ALL], all = image_create(2 * width, 2 * height);
     int i;
-    for (i = 0; i < PICTURE_ALL; i++) pictures[i] = make_image(width, height);
+    for (i = 0; i < PICTURE_ALL; i++) pictures[i] = image_create(width, height);
     for (i = 0; i < count; i++) {
         vec3 result = lobe_add(direct->pixels[i], indirect->pixels[i]);
         vec3 wanted = lobe_add(direct->pixels[i], reference->pixels[i]), d = lobe_sub(result, wanted);
@@ -491,7 +473,7 @@ static void write_kernels(const vpl_map *rsm, const float *pdf, const char *pdf_
     static const method shown[4] = {METHOD_DENSITY, METHOD_BISECTION, METHOD_SPLIT, METHOD_KMEANS_2D};
     generator g = generator_create(rsm->width, rsm->height, KERNELS_SHOWN);
     light_set set = light_set_create(KERNELS_SHOWN);
-    image panel = make_image(rsm->width, rsm->height), all = make_image(2 * rsm->width, 2 * rsm->height);
+    image panel = image_create(rsm->width, rsm->height), all = image_create(2 * rsm->width, 2 * rsm->height);
     int i;
     for (i = 0; i < 4; i++) {
         vsgl_generate(&g, rsm, pdf, shown[i], 1, (unsigned)o->seed, &set);
@@ -544,11 +526,11 @@ static void convert(const settings *o) {
     light_set set;
     float *pdf;
     double flux = 0;
-    char path[1024];
+    char path[OUTPUT_NAME];
     int i;
     if (o->pdf > 1 + PDF_FLUX) give_up("--pdf", "without a camera there is only flux");
-    check_path(o->out, ".txt");
-    snprintf(path, sizeof path, "%s.txt", o->out);
+    output_check(o->out, ".txt");
+    output_name(path, o->out, ".txt");
     rsm = vpl_map_read(o->rsm, o->light.given ? &light : NULL);
     g = generator_create(rsm.width, rsm.height, count);
     set = light_set_create(count);
@@ -571,13 +553,12 @@ static void compare(const settings *o) {
     buffer seen = buffer_camera(&world, o->size.width, o->size.height);
     const vpl_map rsm = render_rsm(&world), view = render_view(&world, o->view);
     vpl_map pixels;
-    image direct = make_image(o->size.width, o->size.height), indirect = make_image(o->size.width, o->size.height);
-    image best = make_image(o->size.width, o->size.height), reference;
+    image direct = image_create(o->size.width, o->size.height), indirect = image_create(o->size.width, o->size.height);
+    image best = image_create(o->size.width, o->size.height), reference;
     light_set view_lights;
     float *pdfs[PDFS] = {NULL, NULL};
     row rows[MAX_ROWS], chosen;
     int kind, last = 0, chosen_pdf = 0, i;
-    if (!seen.texels) give_up("images", "not enough memory");
     pixels = vpl_map_create(&seen, world.center);
     light_directly(&world, &seen, &direct);
     reference = trace_reference(&world, &seen, o);
@@ -678,7 +659,7 @@ int main(int argc, char **argv) {
     if (o.rsm) {
         convert(&o);
     } else {
-        for (i = 0; i < PICTURES; i++) check_path(o.out, picture_names[i]);
+        for (i = 0; i < PICTURES; i++) output_check(o.out, picture_names[i]);
         compare(&o);
     }
     return 0;

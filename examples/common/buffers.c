@@ -1,13 +1,14 @@
 #include "buffers.h"
+#include "fail.h"
 #include "parallel.h"
 #include "progress.h"
 #include <stdlib.h>
 
-static buffer allocate(int width, int height) {
+static buffer make_buffer(int width, int height) {
     buffer b;
     b.width = width;
     b.height = height;
-    b.texels = (texel *)calloc((size_t)width * (size_t)height, sizeof *b.texels);
+    b.texels = (texel *)allocate("images", (size_t)width * (size_t)height, sizeof *b.texels);
     return b;
 }
 
@@ -17,12 +18,11 @@ void buffer_free(buffer *b) {
 }
 
 buffer buffer_camera(const scene *world, int width, int height) {
-    buffer b = allocate(width, height);
+    buffer b = make_buffer(width, height);
     vec3 forward = vec3_normalize(lobe_sub(world->eye.target, world->eye.position)), right, up;
     float tangent = tanf(0.5f * world->eye.field_of_view), aspect = (float)width / (float)height;
     progress line = progress_begin("camera", height);
     int row;
-    if (!b.texels) return b;
     scene_frame(forward, &right, &up);
     PARALLEL_FOR
     for (row = 0; row < height; row++) {
@@ -58,9 +58,8 @@ int spot_project(const spot_light *spot, vec3 dir, float *u, float *v) {
 }
 
 buffer buffer_rsm(const scene *world, int size) {
-    buffer b = allocate(size, size);
+    buffer b = make_buffer(size, size);
     int row;
-    if (!b.texels) return b;
     PARALLEL_FOR
     for (row = 0; row < size; row++) {
         int column;

@@ -16,7 +16,7 @@ typedef struct {
     int width, height;
 } buffer;
 
-/* Both allocate; buffer_free gives the memory back. A null texels means that there was not enough. */
+/* Both allocate, and give up when memory is short; buffer_free gives the memory back. */
 buffer buffer_camera(const scene *world, int width, int height);
 buffer buffer_rsm(const scene *world, int size);
 void buffer_free(buffer *b);

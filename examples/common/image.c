@@ -1,4 +1,5 @@
 #include "image.h"
+#include "fail.h"
 #include "file.h"
 #include <float.h>
 #include <stdio.h>
@@ -9,7 +10,7 @@ image image_create(int width, int height) {
     image picture;
     picture.width = width;
     picture.height = height;
-    picture.pixels = (vec3 *)calloc((size_t)width * (size_t)height, sizeof *picture.pixels);
+    picture.pixels = (vec3 *)allocate("images", (size_t)width * (size_t)height, sizeof *picture.pixels);
     return picture;
 }
 

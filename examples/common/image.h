@@ -9,7 +9,7 @@ typedef struct {
     int width, height;
 } image;
 
-/* A black image; null pixels when memory is short. */
+/* A black image. Gives up when memory is short. */
 image image_create(int width, int height);
 void image_free(image *picture);
 

@@ -1,5 +1,6 @@
 #include "path_trace.h"
 #include "brdf.h"
+#include "hash.h"
 #include "parallel.h"
 #include "progress.h"
 #include <stdlib.h>
@@ -64,10 +65,7 @@ static const double steps[DIMENSIONS] = {0.8812714616335696, 0.7766393890897682,
                                          0.5315553977157913};
 
 static double hash(unsigned pixel, unsigned dimension, unsigned seed) {
-    unsigned x = pixel * 0x9E3779B1u + dimension * 0x85EBCA77u + seed * 0xC2B2AE3Du;
-    x = (x ^ (x >> 16)) * 0x7FEB352Du;
-    x = (x ^ (x >> 15)) * 0x846CA68Bu;
-    return (double)(x ^ (x >> 16)) / 4294967296.0;
+    return (double)hash_mix(pixel * 0x9E3779B1u + dimension * 0x85EBCA77u + seed * 0xC2B2AE3Du) / 4294967296.0;
 }
 
 /* Solid angle at the light over solid angle at the pixel, for a small patch around a hit that wi points to. */

@@ -221,6 +221,12 @@ const char *raster_read(const char *path, raster *result) {
     return wrong;
 }
 
+int raster_in_range(float value, float low, float high) {
+    unsigned bits;
+    memcpy(&bits, &value, sizeof bits);
+    return (bits & 0x7FFFFFFFu) < 0x7F800000u && value >= low && value <= high;
+}
+
 const char *raster_write(const char *path, const raster *picture) {
     file f;
     const char *wrong = file_begin(&f, path);

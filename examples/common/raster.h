@@ -19,6 +19,9 @@ enum { RASTER_MAX_SIDE = 32768, RASTER_MAX_TEXELS = 1 << 26 };
 const char *raster_read(const char *path, raster *result);
 const char *raster_parse(const unsigned char *bytes, size_t count, raster *result);
 
+/* Whether a value is in [low, high], two finite numbers; NaN is not, even if the compiler knows none. */
+int raster_in_range(float value, float low, float high);
+
 /* Writes PFM of one or three channels, little endian. The file is whole or absent. Returns null, or what went wrong. */
 const char *raster_write(const char *path, const raster *picture);
 

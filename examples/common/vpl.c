@@ -52,13 +52,6 @@ static void part_path(char *path, size_t size, const char *prefix, int part) {
     if (snprintf(path, size, "%s-%s.pfm", prefix, part_names[part]) >= (int)size) give_up(prefix, "name too long");
 }
 
-/* On bits first, since -ffast-math knows no NaN */
-static int in_range(float x, float low, float high) {
-    unsigned bits;
-    memcpy(&bits, &x, sizeof bits);
-    return (bits & 0x7FFFFFFFu) < 0x7F800000u && x >= low && x <= high;
-}
-
 static void read_part(raster *r, const char *prefix, int part, const raster *first) {
     char path[1024];
     const char *wrong;
@@ -70,7 +63,7 @@ static void read_part(raster *r, const char *prefix, int part, const raster *fir
     if (r->width != first->width || r->height != first->height) give_up(path, "it is not as large as the position");
     count = (size_t)r->width * (size_t)r->height * (size_t)r->channels;
     for (i = 0; i < count; i++) {
-        if (!in_range(r->values[i], lows[part], highs[part])) give_up(path, ranges[part]);
+        if (!raster_in_range(r->values[i], lows[part], highs[part])) give_up(path, ranges[part]);
     }
 }
 

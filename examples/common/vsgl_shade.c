@@ -1,6 +1,7 @@
 #include "vsgl_shade.h"
 #include "../../asg.h"
 #include "fail.h"
+#include "hash.h"
 #include "parallel.h"
 #include "progress.h"
 #include <stdlib.h>
@@ -117,10 +118,7 @@ void vsgl_shade(const vpl_map *map, const vsgl *lights, const shadow_map *maps, 
 }
 
 static unsigned hash(unsigned which, unsigned seed) {
-    unsigned x = which * 0x9E3779B1u + seed * 0x85EBCA77u;
-    x = (x ^ (x >> 16)) * 0x7FEB352Du;
-    x = (x ^ (x >> 15)) * 0x846CA68Bu;
-    return x ^ (x >> 16);
+    return hash_mix(which * 0x9E3779B1u + seed * 0x85EBCA77u);
 }
 
 /* 0 .. count - 1 in an order that the seed draws */
