@@ -768,24 +768,11 @@ static void products_are_bounded(void) {
     test_bound excess = test_bound_of("asg.h", "asg_product_integral", "excess");
     test_bound symmetric = test_bound_of("asg.h", "asg_product_integral", "symmetric");
     test_rng rng = {108};
-    int i, k;
+    int i;
     for (i = 0; i < 100000; i++) {
-        double z[3], other[3], inputs[5], w, back, first, second, turn = 7 * test_uniform(&rng), turned, width;
+        double inputs[5], w, back, first, second;
         asg_lobe a, b;
-        test_direction(&rng, z);
-        for (k = 0; k < 4; k++) inputs[k] = test_log_uniform(&rng, 1e-3, 1e9);
-        inputs[4] = acos(1 - 2 * test_uniform(&rng));
-        turned = 7 * test_uniform(&rng);
-        if (i % 4) { /* near each other */
-            width = test_log_uniform(&rng, 1e-4, 1) / sqrt(1 + fmax(inputs[0], inputs[1]));
-            inputs[2] = inputs[0] * (1 + (i % 4 - 1) * test_uniform(&rng));
-            inputs[3] = inputs[1] * (1 + (i % 4 - 1) * test_uniform(&rng));
-            inputs[4] = width;
-            turned = turn + (i % 4 == 2 ? width : 0);
-        }
-        a = lobe_around(z, turn, inputs[0], inputs[1]);
-        direction_near(&rng, z, inputs[4], other);
-        b = lobe_around(other, turned, inputs[2], inputs[3]);
+        draw_pair(&rng, i, 1e9, inputs, &a, &b);
         first = (double)asg_product_integral(a, a);
         second = (double)asg_product_integral(b, b);
         w = weight((double)asg_product_integral(a, b), first, second);

@@ -127,29 +127,16 @@ static void weights_are_weights(void) {
     test_bound symmetric = test_bound_of("bilateral.h", "bilateral_asg_weight", "symmetric");
     test_bound rows = test_bound_of("bilateral.h", "bilateral_asg_taps", "rel");
     test_rng rng = {108};
-    int i, k;
+    int i;
     for (i = 0; i < 100000; i++) {
-        double z[3], other[3], inputs[6], turn = 7 * test_uniform(&rng), turned, width;
+        double inputs[6];
         float beta, w, back, row = -1.5f;
         bilateral_asg first, second;
         const float *planes[2][13];
         asg_lobe a, b;
-        test_direction(&rng, z);
-        for (k = 0; k < 4; k++) inputs[k] = test_log_uniform(&rng, 1e-3, i % 8 < 4 ? 1e9 : rows.high);
-        inputs[4] = acos(1 - 2 * test_uniform(&rng));
-        turned = 7 * test_uniform(&rng);
-        if (i % 4) { /* near each other */
-            width = test_log_uniform(&rng, 1e-4, 1) / sqrt(1 + fmax(inputs[0], inputs[1]));
-            inputs[2] = inputs[0] * (1 + (i % 4 - 1) * test_uniform(&rng));
-            inputs[3] = inputs[1] * (1 + (i % 4 - 1) * test_uniform(&rng));
-            inputs[4] = width;
-            turned = turn + (i % 4 == 2 ? width : 0);
-        }
+        draw_pair(&rng, i, i % 8 < 4 ? 1e9 : rows.high, inputs, &a, &b);
         inputs[5] = test_log_uniform(&rng, 1e-3, 1e3);
         beta = (float)inputs[5];
-        a = lobe_around(z, turn, inputs[0], inputs[1]);
-        direction_near(&rng, z, inputs[4], other);
-        b = lobe_around(other, turned, inputs[2], inputs[3]);
         w = bilateral_asg_weight(a, b, beta);
         test_that(test_is_finite(w) && w >= 0 && w <= 1, "a weight is in [0, 1]", inputs, 6);
         test_that(bilateral_asg_weight(a, a, beta) == 1, "a lobe's weight with itself is 1", inputs, 6);

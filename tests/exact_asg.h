@@ -120,6 +120,27 @@ static inline void direction_near(test_rng *rng, const double axis[3], double an
     }
 }
 
+/* Two lobes of sharpness 1e-3 to `high`, by turns at random, near each other, and near with the second turned or sharper.
+   Writes both sharpnesses of each, and the angle between them. */
+static inline void draw_pair(test_rng *rng, int i, double high, double inputs[5], asg_lobe *a, asg_lobe *b) {
+    double z[3], other[3], turn = 7 * test_uniform(rng), turned, width;
+    int k;
+    test_direction(rng, z);
+    for (k = 0; k < 4; k++) inputs[k] = test_log_uniform(rng, 1e-3, high);
+    inputs[4] = acos(1 - 2 * test_uniform(rng));
+    turned = 7 * test_uniform(rng);
+    if (i % 4) { /* near each other */
+        width = test_log_uniform(rng, 1e-4, 1) / sqrt(1 + fmax(inputs[0], inputs[1]));
+        inputs[2] = inputs[0] * (1 + (i % 4 - 1) * test_uniform(rng));
+        inputs[3] = inputs[1] * (1 + (i % 4 - 1) * test_uniform(rng));
+        inputs[4] = width;
+        turned = turn + (i % 4 == 2 ? width : 0);
+    }
+    *a = lobe_around(z, turn, inputs[0], inputs[1]);
+    direction_near(rng, z, inputs[4], other);
+    *b = lobe_around(other, turned, inputs[2], inputs[3]);
+}
+
 static inline sg_lobe sg_around(const double axis[3], double sharpness) {
     sg_lobe g;
     g.axis = narrow(axis);
