@@ -772,7 +772,7 @@ static void products_are_bounded(void) {
     for (i = 0; i < 100000; i++) {
         double inputs[5], w, back, first, second;
         asg_lobe a, b;
-        draw_pair(&rng, i, 1e9, inputs, &a, &b);
+        draw_near_asgs(&rng, i, 1e9, inputs, &a, &b);
         first = (double)asg_product_integral(a, a);
         second = (double)asg_product_integral(b, b);
         w = weight((double)asg_product_integral(a, b), first, second);

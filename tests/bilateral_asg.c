@@ -134,7 +134,7 @@ static void weights_are_weights(void) {
         bilateral_asg first, second;
         const float *planes[2][13];
         asg_lobe a, b;
-        draw_pair(&rng, i, i % 8 < 4 ? 1e9 : rows.high, inputs, &a, &b);
+        draw_near_asgs(&rng, i, i % 8 < 4 ? 1e9 : rows.high, inputs, &a, &b);
         inputs[5] = test_log_uniform(&rng, 1e-3, 1e3);
         beta = (float)inputs[5];
         w = bilateral_asg_weight(a, b, beta);

@@ -122,7 +122,7 @@ static inline void direction_near(test_rng *rng, const double axis[3], double an
 
 /* Two lobes of sharpness 1e-3 to `high`, by turns at random, near each other, and near with the second turned or sharper.
    Writes both sharpnesses of each, and the angle between them. */
-static inline void draw_pair(test_rng *rng, int i, double high, double inputs[5], asg_lobe *a, asg_lobe *b) {
+static inline void draw_near_asgs(test_rng *rng, int i, double high, double inputs[5], asg_lobe *a, asg_lobe *b) {
     double z[3], other[3], turn = 7 * test_uniform(rng), turned, width;
     int k;
     test_direction(rng, z);
