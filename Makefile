@@ -18,7 +18,7 @@ COMPILE = $(CC) -std=c99 $(WARN) $(CFLAGS)
 
 HEADERS = sg.h asg.h fis.h ggx_bound.h bilateral.h
 EXAMPLES = vsgl glossy_plane light_culling env_lights lobe_filter
-COMMON = $(wildcard examples/common/*.c)
+COMMON = $(filter-out $(wildcard examples/common/gpu*.c),$(wildcard examples/common/*.c))
 TESTS = $(wildcard tests/*.c)
 FUZZ = $(patsubst tests/fuzz/%.c,%,$(wildcard tests/fuzz/*.c))
 
@@ -43,6 +43,9 @@ help:
 	@echo 'make test            compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
 	@echo 'make bench           speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
 	@echo 'make fuzz            SECONDS=60 of random files for each reader, by clang with its libFuzzer'
+	@echo 'make test-shaders    compiles the shaders in both languages and runs them on a Vulkan device, by the same unit tests'
+	@echo 'make hlsl            makes the HLSL shaders anew from the GLSL ones'
+	@echo 'make setup           installs the Debian packages that shaders and reports take'
 	@echo 'make clean           deletes $(BUILD)/'
 	@echo 'make help            prints this'
 	@echo
@@ -114,9 +117,53 @@ readme: $(BUILD)/flags
 	@$(CC) -std=c99 $(WARN) -Werror -I. $(BUILD)/readme.c -o $(BUILD)/readme -lm
 	@$(BUILD)/readme > /dev/null && echo "ok     snippet of the README"
 
+# Shaders. Those of glsl/ are the source, those of hlsl/ are made from them by `make hlsl`.
+GLSL = examples/shaders/glsl
+HLSL = examples/shaders/hlsl
+SHADERS = $(wildcard $(GLSL)/* $(HLSL)/* examples/shaders/hlsl.sh)
+SHADER_PACKAGES = glslang-tools spirv-tools mesa-vulkan-drivers libvulkan-dev
+
+setup:
+	apt-get update
+	apt-get install -y --no-install-recommends $(SHADER_PACKAGES)
+
+hlsl:
+	@mkdir -p $(HLSL)
+	@for shader in $(notdir $(wildcard $(GLSL)/*)); do \
+	    sh examples/shaders/hlsl.sh $(GLSL)/$$shader > $(HLSL)/$${shader%.glsl}.hlsl || exit 1; done
+
+shader-tools:
+	@missing=; \
+	for tool in glslangValidator spirv-val; do command -v $$tool > /dev/null || missing="$$missing $$tool"; done; \
+	echo '#include <vulkan/vulkan.h>' | $(CC) -E - > /dev/null 2>&1 || missing="$$missing vulkan/vulkan.h"; \
+	[ -z "$$missing" ] || { echo "missing:$$missing"; \
+	    echo 'On Debian, make setup installs all: $(SHADER_PACKAGES)'; exit 1; } >&2
+
+test-shaders: $(BUILD)/shader_tests $(BUILD)/pipeline_tests
+	$(BUILD)/pipeline_tests $(BUILD)/shaders
+	$(BUILD)/shader_tests $(BUILD)/shaders $(ARGS)
+
+$(BUILD)/shaders/compiled: $(SHADERS) $(wildcard tests/shaders/*) $(HEADERS) | shader-tools
+	@sh tests/shaders/compile.sh $(GLSL) $(HLSL) $(BUILD)/shaders
+	@touch $@
+
+# The tests of the headers, but that a call of a function that shaders have asks the GPU.
+SHADER_TESTS = $(filter-out tests/main.c,$(TESTS)) $(wildcard tests/shaders/*.c) \
+               $(addprefix examples/common/,gpu.c fail.c file.c)
+
+$(BUILD)/shader_tests: $(SHADER_TESTS) $(BUILD)/shaders/compiled $(wildcard tests/*.h tests/shaders/*.h examples/common/*.h) \
+                       $(HEADERS) $(BUILD)/flags
+	$(COMPILE) -include $(BUILD)/shaders/redirect.h $(SHADER_TESTS) -o $@ -lvulkan -lm
+
+PIPELINE_TESTS = $(wildcard tests/shaders/pipelines/*.c) $(COMMON) $(wildcard examples/common/gpu*.c)
+
+$(BUILD)/pipeline_tests: $(PIPELINE_TESTS) $(BUILD)/shaders/compiled $(wildcard tests/shaders/pipelines/*.h examples/common/*.h) \
+                         $(HEADERS) $(BUILD)/flags
+	$(COMPILE) $(OPENMP) $(PIPELINE_TESTS) -o $@ -lvulkan -lm
+
 # Changes when the compiler or its flags do, so that everything is built anew then.
 $(BUILD)/flags: force
 	@mkdir -p $(BUILD)
 	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
 
-.PHONY: run $(EXAMPLES) test bench fuzz help clean headers vectors readme force
+.PHONY: run $(EXAMPLES) test bench fuzz setup hlsl shader-tools test-shaders help clean headers vectors readme force

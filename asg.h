@@ -607,7 +607,7 @@ LOBE_API asg_lobe asg_ashikhmin_lobe(lobe_vec3 normal, lobe_vec3 tangent, lobe_v
  asg_vsgl_specular - light of one component of a virtual SG light reflected by a GGX surface
 
    v, component  variance [0, 1e10]; intensity is left to the caller
-   point         at most 1e5 from the light
+   place         at most 1e5 from the light
    wi            towards the viewer
    alpha         [1e-4, 1], clamped below
    reflection    asg_ggx_lobe(normal, wi, alpha) or any other of log_amplitude at most 10: once for all lights
@@ -624,10 +624,10 @@ LOBE_API asg_lobe asg_ashikhmin_lobe(lobe_vec3 normal, lobe_vec3 tangent, lobe_v
              peak 1 / (pi alpha^2) times Smith's height-correlated visibility (Heitz 2014) times the cosine,
              constant over the incoming lobe.
 */
-LOBE_API float asg_vsgl_specular(vsgl v, int component, lobe_vec3 point, lobe_vec3 normal, lobe_vec3 wi, float alpha,
+LOBE_API float asg_vsgl_specular(vsgl v, int component, lobe_vec3 place, lobe_vec3 normal, lobe_vec3 wi, float alpha,
                                  asg_lobe reflection) {
     float inverse_variance;
-    sg_lobe g = lobe_vsgl_incoming(v, component, point, &inverse_variance);
+    sg_lobe g = lobe_vsgl_incoming(v, component, place, &inverse_variance);
     float lx = reflection.sharpness_x, ly = reflection.sharpness_y, nu = 0.5f * g.sharpness;
     float ix = 1 / sqrtf(lobe_at_least(lx + nu, 0.1f)), iy = 1 / sqrtf(lobe_at_least(ly + nu, 0.1f));
     float x = lobe_dot(reflection.x, g.axis), y = lobe_dot(reflection.y, g.axis);

@@ -385,7 +385,7 @@ LOBE_API int lobe_fis_choose(float *number, float first, float second) {
  fis_warp - turns a uniform point into a position with the PDF's probability
 
    pdf        of fis_build_pdf
-   point      clamped to [0, 1)
+   place      clamped to [0, 1)
    returns    position in (0, 1), in a texel whose mass is not 0, and what fis_level needs to know about it. It is
               kept (width 2^-21, height 2^-21) of a texel off the texel's border, so that u * width stays in the texel
 
@@ -394,9 +394,9 @@ LOBE_API int lobe_fis_choose(float *number, float first, float second) {
    Model:    exact; stratified points stay stratified
    Source:   Clarberg et al. 2005, hierarchical sample warping; 002, section 3
 */
-LOBE_API fis_sample fis_warp(const fis_pyramid *pdf, fis_point point) {
+LOBE_API fis_sample fis_warp(const fis_pyramid *pdf, fis_point place) {
     fis_sample s;
-    float u = lobe_fis_clamp(point.u, 0, 0.99999994f), v = lobe_fis_clamp(point.v, 0, 0.99999994f);
+    float u = lobe_fis_clamp(place.u, 0, 0.99999994f), v = lobe_fis_clamp(place.v, 0, 0.99999994f);
     float total = lobe_fis_total(pdf), margin;
     int x = 0, y = 0, level;
     memset(&s, 0, sizeof s);

@@ -885,9 +885,9 @@ LOBE_API vsgl vsgl_from_cluster(vsgl_cluster c) {
 /* The incoming lobe but for its factor inverse_variance / (2 pi): the product of the light's extent, of sharpness d^2 /
    variance for the distance d, and its emission, with all sharpnesses times the variance: a variance of 0 is the point
    light. */
-LOBE_API sg_lobe lobe_vsgl_incoming(vsgl v, int component, lobe_vec3 point, float *inverse_variance) {
+LOBE_API sg_lobe lobe_vsgl_incoming(vsgl v, int component, lobe_vec3 place, float *inverse_variance) {
     sg_lobe g;
-    lobe_vec3 offset = lobe_sub(v.position, point), back, pull;
+    lobe_vec3 offset = lobe_sub(v.position, place), back, pull;
     float squared = lobe_dot(offset, offset), inverse, distance, sharpness, weight, size, chord2;
     /* field by field: an index would go through memory and stop vectorisation */
     back.x = -(component ? v.emission[1].axis.x : v.emission[0].axis.x);
@@ -912,7 +912,7 @@ LOBE_API sg_lobe lobe_vsgl_incoming(vsgl v, int component, lobe_vec3 point, floa
  vsgl_incoming_lobe - radiance that arrives at a point from one component of a virtual SG light
 
    component  VSGL_DIFFUSE or VSGL_SPECULAR
-   point      at most 1e5 from the light; at the light itself the lobe points along the emission
+   place      at most 1e5 from the light; at the light itself the lobe points along the emission
    returns    the lobe that, times v.intensity[component], is the incoming radiance; visibility is the caller's
 
    Rounding: <= 80 (1 + |ln g| + angle * sharpness of the emission) 2^-24 in the integral, g the value over that on the
@@ -920,9 +920,9 @@ LOBE_API sg_lobe lobe_vsgl_incoming(vsgl v, int component, lobe_vec3 point, floa
    Model:    000, section 4.1: positions projected onto the sphere around the point
    Source:   000, Eq. 7
 */
-LOBE_API sg_lobe vsgl_incoming_lobe(vsgl v, int component, lobe_vec3 point) {
+LOBE_API sg_lobe vsgl_incoming_lobe(vsgl v, int component, lobe_vec3 place) {
     float inverse_variance;
-    sg_lobe g = lobe_vsgl_incoming(v, component, point, &inverse_variance);
+    sg_lobe g = lobe_vsgl_incoming(v, component, place, &inverse_variance);
     g.log_amplitude += lobe_log(inverse_variance * (0.5f / LOBE_PI));
     return g;
 }
@@ -938,7 +938,7 @@ LOBE_API float lobe_vsgl_flux(sg_lobe g, float inverse_variance) {
  vsgl_diffuse - light of one component of a virtual SG light reflected by a Lambert surface
 
    component  VSGL_DIFFUSE or VSGL_SPECULAR
-   point      of the surface with that normal, at most 1e5 from the light
+   place      of the surface with that normal, at most 1e5 from the light
    returns    reflected radiance per unit of v.intensity[component] and albedo; visibility is the caller's
 
    Rounding: <= 16 units of vsgl_incoming_lobe times the value for cosine 1; a variance of 0 gives the point light
@@ -947,9 +947,9 @@ LOBE_API float lobe_vsgl_flux(sg_lobe g, float inverse_variance) {
              below the horizon, up to 4 times too bright for a wide one; sg_cosine_integral does not have this error
    Source:   000, section 4.2
 */
-LOBE_API float vsgl_diffuse(vsgl v, int component, lobe_vec3 point, lobe_vec3 normal) {
+LOBE_API float vsgl_diffuse(vsgl v, int component, lobe_vec3 place, lobe_vec3 normal) {
     float inverse_variance;
-    sg_lobe g = lobe_vsgl_incoming(v, component, point, &inverse_variance);
+    sg_lobe g = lobe_vsgl_incoming(v, component, place, &inverse_variance);
     return lobe_vsgl_flux(g, inverse_variance) * lobe_max(lobe_dot(g.axis, normal), 0);
 }
 
@@ -964,9 +964,9 @@ LOBE_API float vsgl_diffuse(vsgl v, int component, lobe_vec3 point, lobe_vec3 no
    Model:    that of sg_cosine_integral
    Source:   000, Eq. 7 with sg_cosine_integral
 */
-LOBE_API float vsgl_diffuse_integral(vsgl v, int component, lobe_vec3 point, lobe_vec3 normal) {
+LOBE_API float vsgl_diffuse_integral(vsgl v, int component, lobe_vec3 place, lobe_vec3 normal) {
     float inverse_variance;
-    sg_lobe g = lobe_vsgl_incoming(v, component, point, &inverse_variance);
+    sg_lobe g = lobe_vsgl_incoming(v, component, place, &inverse_variance);
     return lobe_vsgl_flux(g, inverse_variance) * lobe_cosine_mean(g.sharpness, lobe_dot(g.axis, normal));
 }
 
@@ -976,7 +976,7 @@ LOBE_API float vsgl_diffuse_integral(vsgl v, int component, lobe_vec3 point, lob
  vsl_lobe - the solid angle of a virtual spherical light seen from a point, as an SG
 
    center, radius  of the sphere, radius [0, 1e5]
-   point           at most 1e5 away; within the sphere it sees half of all directions, as on its surface
+   place           at most 1e5 away; within the sphere it sees half of all directions, as on its surface
    returns         peak 1 towards the center, sharpness 4 pi / solid angle, 4 d^2 / radius^2 far away, at most 1e18;
                    its integral is half the solid angle
 
@@ -986,9 +986,9 @@ LOBE_API float vsgl_diffuse_integral(vsgl v, int component, lobe_vec3 point, lob
              and .038   [bound vsl_lobe solid_angle .019] [bound vsl_lobe cosine .038]
    Source:   001, section B, with 1 - cos as sin^2 / (1 + cos)
 */
-LOBE_API sg_lobe vsl_lobe(lobe_vec3 center, float radius, lobe_vec3 point) {
+LOBE_API sg_lobe vsl_lobe(lobe_vec3 center, float radius, lobe_vec3 place) {
     sg_lobe g;
-    lobe_vec3 offset = lobe_sub(center, point);
+    lobe_vec3 offset = lobe_sub(center, place);
     float squared = lobe_dot(offset, offset), sine2;
     sine2 = lobe_at_most(radius * radius / lobe_at_least(squared, LOBE_TINY), 1);
     LOBE_ASSERT(radius >= 0);

@@ -50,6 +50,18 @@ double test_uniform(test_rng *rng);
 double test_log_uniform(test_rng *rng, double low, double high);
 void test_direction(test_rng *rng, double direction[3]);
 
+/* Runs one test and prints how it went; returns how many of its checks failed. */
+int test_run(const test_case *test);
+
+extern const char *test_root; /* where the headers are */
+extern int test_verbose, test_quiet;
+extern unsigned long long test_seed;
+extern int test_most;
+
+/* The count, or fewer where even a few are enough: for tests of a million draws. */
+int test_draws(int count);
+extern double test_slack; /* what every limit is multiplied by: 1, more for shaders */
+
 /* How often random searches are to be repeated: 1, many with --long. */
 extern int test_repeat;
 
@@ -59,7 +71,7 @@ extern test_rng test_random;
 /* How the names of files that tests write begin: they are beside the executable, and removed. */
 extern const char *test_files;
 
-/* One table per header, and one for the examples' files; closed by a null name. */
+/* One table per header, and one for the examples' files; closed by a null name. All of them, closed by null. */
 extern const test_case sg_tests[];
 extern const test_case asg_tests[];
 extern const test_case fis_tests[];
@@ -67,5 +79,6 @@ extern const test_case ggx_bound_tests[];
 extern const test_case bilateral_tests[];
 extern const test_case bilateral_asg_tests[];
 extern const test_case raster_tests[];
+extern const test_case *const test_tables[];
 
 #endif

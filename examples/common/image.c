@@ -40,6 +40,29 @@ double image_relative_error(const image *picture, const image *wanted) {
     return total > 0 ? difference / total : 0;
 }
 
+/* In [0, 1] */
+static float displayed(float radiance, float exposure) {
+    float x = 1 - expf(-exposure * radiance);
+    x = x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
+    return lobe_max(0, lobe_min(1, x));
+}
+
+static double squared_difference(float a, float b, float exposure) {
+    double difference = (double)(displayed(a, exposure) - displayed(b, exposure));
+    return difference * difference;
+}
+
+double image_psnr(const image *picture, const image *wanted, float exposure) {
+    int i, count = picture->width * picture->height;
+    double sum = 0;
+    for (i = 0; i < count; i++) {
+        vec3 a = picture->pixels[i], b = wanted->pixels[i];
+        sum += squared_difference(a.x, b.x, exposure) + squared_difference(a.y, b.y, exposure) +
+               squared_difference(a.z, b.z, exposure);
+    }
+    return -10 * log10(sum / (3.0 * count) + 1e-20);
+}
+
 void image_paste(image *target, const image *part, int x, int y) {
     int row;
     for (row = 0; row < part->height; row++)
@@ -74,9 +97,7 @@ static void end_chunk(png *p) {
 }
 
 static unsigned encode(float radiance, float exposure) {
-    float x = 1 - expf(-exposure * radiance);
-    x = x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
-    return (unsigned)(255 * lobe_max(0, lobe_min(1, x)) + 0.5f);
+    return (unsigned)(255 * displayed(radiance, exposure) + 0.5f);
 }
 
 static void put_picture(png *p, const image *picture, float exposure) {

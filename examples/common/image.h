@@ -17,6 +17,9 @@ void image_free(image *picture);
 double image_rmse(const image *picture, const image *wanted);
 double image_relative_error(const image *picture, const image *wanted);
 
+/* Peak signal-to-noise ratio of what image_write_png would write if it did not round to 8 bits, in dB, at most 200 */
+double image_psnr(const image *picture, const image *wanted, float exposure);
+
 /* Copies a picture into another at a position. */
 void image_paste(image *target, const image *part, int x, int y);
 

@@ -1,0 +1,360 @@
+/* Runs the headers' unit tests on the shaders, in each language. */
+#include "../../examples/common/fail.h"
+#include "../../examples/common/gpu.h"
+#include "../test.h"
+#include "shader.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *const program_name = "shader_tests";
+
+enum { MOST_WORDS = 256, MOST_QUESTIONS = 1 << 17, MOST_ROUNDS = 5, ENOUGH = 100000, MOST_SEEDS = 100 };
+
+typedef struct {
+    const char *name;
+    int in_words, out_words;
+    int count, answered, room; /* questions of the running test */
+    unsigned *in, *out;
+    int *slots, slot_count;   /* hash table of question + 1 */
+    int asked;                /* by this test */
+    long total;               /* answered in all tests */
+    gpu_program *programs[2]; /* in each language */
+} function;
+
+static function functions[SHADER_FUNCTIONS];
+static gpu *device;
+static const char *const languages[2] = {"glsl", "hlsl"};
+static const char *folder;   /* of both languages' folders */
+static int language;         /* whose answers the tests get */
+static int languages_differ; /* in any answer to this test */
+
+/* ---- one call ---- */
+
+static struct {
+    function *f;
+    unsigned words[MOST_WORDS];
+    int word_count, result_at;
+    const unsigned *answer; /* null: the header's result stands */
+    int unfit;
+} call;
+
+void shader_begin(int which, const char *name, int in_words, int out_words) {
+    call.f = &functions[which];
+    call.f->name = name;
+    call.f->in_words = in_words;
+    call.f->out_words = out_words;
+    call.word_count = call.result_at = call.unfit = 0;
+    call.answer = NULL;
+}
+
+void shader_in(const void *argument, size_t size) {
+    int words = (int)(size / sizeof *call.words);
+    if (call.word_count + words > MOST_WORDS) give_up(call.f->name, "too many words");
+    memcpy(call.words + call.word_count, argument, size);
+    call.word_count += words;
+}
+
+void shader_in_some(const void *elements, size_t size, int count, int most) {
+    static const unsigned zero[MOST_WORDS];
+    if (count > most) {
+        call.unfit = 1;
+        return;
+    }
+    shader_in(elements, size * (size_t)count);
+    shader_in(zero, size * (size_t)(most - count));
+}
+
+static unsigned hash_of(const unsigned *words, int count) {
+    unsigned hash = 2166136261u;
+    int i;
+    for (i = 0; i < count; i++) {
+        hash = (hash ^ words[i]) * 16777619u;
+        hash ^= hash >> 15;
+    }
+    return hash;
+}
+
+static int *slot_of(function *f, const unsigned *words) {
+    unsigned mask = (unsigned)f->slot_count - 1, at = hash_of(words, f->in_words) & mask;
+    while (f->slots[at] &&
+           memcmp(f->in + (size_t)(f->slots[at] - 1) * (size_t)f->in_words, words, (size_t)f->in_words * sizeof *words))
+        at = (at + 1) & mask;
+    return &f->slots[at];
+}
+
+static void *grown(void *memory, size_t count, size_t size) {
+    memory = realloc(memory, count * size);
+    if (!memory) give_up("questions", "not enough memory");
+    return memory;
+}
+
+static void make_room(function *f) {
+    int i;
+    f->room = f->room ? 2 * f->room : 1024;
+    f->in = grown(f->in, (size_t)f->room * (size_t)f->in_words, sizeof *f->in);
+    f->out = grown(f->out, (size_t)f->room * (size_t)f->out_words, sizeof *f->out);
+    f->slot_count = 2 * f->room;
+    f->slots = grown(f->slots, (size_t)f->slot_count, sizeof *f->slots);
+    memset(f->slots, 0, (size_t)f->slot_count * sizeof *f->slots);
+    for (i = 0; i < f->count; i++) *slot_of(f, f->in + (size_t)i * (size_t)f->in_words) = i + 1;
+}
+
+void shader_find(void) {
+    function *f = call.f;
+    int *slot;
+    if (call.unfit) return;
+    if (call.word_count != f->in_words) give_up(f->name, "takes other words in the shader than in the header");
+    if (f->count >= f->room) make_room(f);
+    slot = slot_of(f, call.words);
+    f->asked = 1;
+    if (!*slot) {
+        if (f->count >= MOST_QUESTIONS) return;
+        memcpy(f->in + (size_t)f->count * (size_t)f->in_words, call.words, (size_t)f->in_words * sizeof *call.words);
+        *slot = ++f->count;
+    } else if (*slot <= f->answered) {
+        call.answer = f->out + (size_t)(*slot - 1) * (size_t)f->out_words;
+    }
+}
+
+static int is_finite(unsigned word) {
+    return (word & 0x7F800000u) != 0x7F800000u;
+}
+
+void shader_out(void *result, size_t size) {
+    int words = (int)(size / sizeof *call.answer), i;
+    unsigned ours[MOST_WORDS];
+    if (!call.answer) return;
+    if (call.result_at + words > call.f->out_words) give_up(call.f->name, "returns other words in the shader");
+    memcpy(ours, result, size);
+    memcpy(result, call.answer + call.result_at, size);
+    for (i = 0; i < words; i++) {
+        if (is_finite(ours[i]) && !is_finite(call.answer[call.result_at + i])) {
+            double input[MOST_WORDS];
+            int k;
+            for (k = 0; k < call.word_count; k++) {
+                float x;
+                memcpy(&x, &call.words[k], sizeof x);
+                input[k] = (double)x;
+            }
+            test_that(0, call.f->name, input, call.word_count);
+        }
+    }
+    call.result_at += words;
+}
+
+/* ---- all questions ---- */
+
+static void forget(void) {
+    int i;
+    for (i = 0; i < SHADER_FUNCTIONS; i++) {
+        functions[i].count = functions[i].answered = functions[i].asked = 0;
+        if (functions[i].slots)
+            memset(functions[i].slots, 0, (size_t)functions[i].slot_count * sizeof *functions[i].slots);
+    }
+}
+
+/* The answers in one language */
+static void ask_in(function *f, int which, int in, const unsigned *questions, unsigned *answers, int groups) {
+    static const gpu_kind kinds[2] = {GPU_STORAGE, GPU_STORAGE};
+    gpu_buffer *buffers[2];
+    if (!f->programs[in]) {
+        char path[1024];
+        snprintf(path, sizeof path, "%s/%s/calls.comp.spv", folder, languages[in]);
+        f->programs[in] = gpu_compute_create(device, path, kinds, 2, which);
+    }
+    buffers[0] = gpu_buffer_create(device, GPU_STORAGE, (size_t)groups * 64 * (size_t)f->in_words * sizeof *questions);
+    buffers[1] = gpu_buffer_create(device, GPU_STORAGE, (size_t)groups * 64 * (size_t)f->out_words * sizeof *answers);
+    gpu_buffer_write(buffers[0], questions);
+    gpu_run(f->programs[in], buffers, groups, 1, 1);
+    gpu_buffer_read(buffers[1], answers);
+    gpu_buffer_free(buffers[0]);
+    gpu_buffer_free(buffers[1]);
+}
+
+/* In both languages at once, since they mostly agree to the bit */
+static void ask(function *f, int which) {
+    int count = f->count - f->answered, groups = (count + 63) / 64, in;
+    size_t in_words = (size_t)f->in_words, out_words = (size_t)f->out_words;
+    size_t size = (size_t)count * out_words * sizeof *f->out;
+    unsigned *questions = allocate("questions", (size_t)groups * 64 * in_words, sizeof *questions), *answers[2];
+    memcpy(questions, f->in + (size_t)f->answered * in_words, (size_t)count * in_words * sizeof *questions);
+    for (in = 0; in < 2; in++) {
+        answers[in] = allocate("answers", (size_t)groups * 64 * out_words, sizeof *answers[in]);
+        ask_in(f, which, in, questions, answers[in], groups);
+    }
+    languages_differ |= memcmp(answers[0], answers[1], size) != 0;
+    memcpy(f->out + (size_t)f->answered * out_words, answers[language], size);
+    free(questions);
+    free(answers[0]);
+    free(answers[1]);
+    if (!language) f->total += count;
+    f->answered = f->count;
+}
+
+static int ask_all(void) {
+    int i, news = 0;
+    for (i = 0; i < SHADER_FUNCTIONS; i++) {
+        if (functions[i].count == functions[i].answered) continue;
+        ask(&functions[i], i);
+        news = 1;
+    }
+    return news;
+}
+
+/* ---- tests ---- */
+
+typedef struct {
+    const char *test, *why;
+} exception;
+
+/* What a test asks that no shader promises */
+static const exception exceptions[] = {{NULL, NULL}};
+
+static const char *exception_of(const char *test) {
+    int i;
+    for (i = 0; exceptions[i].test; i++)
+        if (!strcmp(test, exceptions[i].test)) return exceptions[i].why;
+    return NULL;
+}
+
+/* Whether the test asks for a function of which not enough has been asked */
+static int is_wanted(void) {
+    int i;
+    for (i = 0; i < SHADER_FUNCTIONS; i++)
+        if (functions[i].asked && functions[i].total < ENOUGH) return 1;
+    return 0;
+}
+
+static int is_about_shaders(void) {
+    int i;
+    for (i = 0; i < SHADER_FUNCTIONS; i++)
+        if (functions[i].asked) return 1;
+    return 0;
+}
+
+/* Runs a test on the answers in one language: -1 where it is not about shaders, else how many checks failed */
+static int judge_in(const test_case *test, int in) {
+    int round;
+    language = in;
+    forget();
+    test_quiet = 1;
+    for (round = 0; round < MOST_ROUNDS; round++) {
+        test_run(test);
+        if (!ask_all()) break;
+    }
+    if (!is_about_shaders()) return -1;
+    test_quiet = test_seed != 0; /* more of the same */
+    return test_run(test);
+}
+
+static int judge(const test_case *test) {
+    int failures, others;
+    languages_differ = 0;
+    failures = judge_in(test, 0);
+    if (failures < 0 || !languages_differ) return failures;
+    if (!test_seed) printf("    and in HLSL, where not all answers are the same to the bit:\n");
+    others = judge_in(test, 1);
+    return failures + (others > 0 ? others : 0);
+}
+
+static void judge_all(const char *wanted, int *passed, int *failed) {
+    static char again[1024]; /* tests that ask for what may need more */
+    int table, at, failures, seed;
+    for (seed = 0; seed < MOST_SEEDS; seed++) {
+        int repeated = 0;
+        test_seed = (unsigned long long)seed << 32;
+        for (table = at = 0; test_tables[table]; table++) {
+            const test_case *test;
+            for (test = test_tables[table]; test->name; test++, at++) {
+                if (!strstr(test->name, wanted) || exception_of(test->name)) continue;
+                if (seed && !again[at]) continue;
+                failures = judge(test);
+                if (failures < 0) continue;
+                again[at] = (char)is_wanted();
+                repeated |= again[at];
+                if (seed && failures) printf("FAILED %s, seed %d\n", test->name, seed);
+                if (!seed && !failures) ++*passed;
+                if (failures) ++*failed;
+            }
+        }
+        if (!repeated) break;
+    }
+}
+
+static void judge_counts(int *passed, int *failed) {
+    int i;
+    for (i = 0; i < SHADER_FUNCTIONS; i++) {
+        const function *f = &functions[i];
+        if (test_verbose || f->total < ENOUGH)
+            printf("%s %s: %ld inputs\n", f->total < ENOUGH ? "FAILED" : "ok    ", f->name ? f->name : "a function",
+                   f->total);
+        if (f->total < ENOUGH)
+            ++*failed;
+        else
+            ++*passed;
+    }
+}
+
+static void end(void) {
+    int i, in;
+    for (i = 0; i < SHADER_FUNCTIONS; i++) {
+        for (in = 0; in < 2; in++)
+            if (functions[i].programs[in]) gpu_program_free(functions[i].programs[in]);
+        free(functions[i].in);
+        free(functions[i].out);
+        free(functions[i].slots);
+    }
+    gpu_close(device);
+}
+
+static void usage(FILE *to) {
+    fprintf(to, "usage: shader_tests [--verbose] [--device NAME] [--root DIR] FOLDER [TEST]\n"
+                "  FOLDER     where glsl/ and hlsl/ with the shaders in SPIR-V are\n"
+                "  TEST       run only the tests whose name contains it\n"
+                "  --device   a Vulkan device whose name contains it (default: a GPU, or else a CPU's driver)\n"
+                "  --verbose  print the largest error seen beside each bound\n"
+                "  --root     where the headers are (default: .)\n");
+}
+
+int main(int argc, char **argv) {
+    const char *wanted = NULL, *name = "";
+    int passed = 0, failed = 0, i;
+    test_files = argv[0];
+    test_slack = 4;
+    test_most = ENOUGH;
+    for (i = 1; i < argc; i++) {
+        if (!strcmp(argv[i], "--help")) {
+            usage(stdout);
+            return 0;
+        } else if (!strcmp(argv[i], "--verbose")) {
+            test_verbose = 1;
+        } else if (!strcmp(argv[i], "--root") && i + 1 < argc) {
+            test_root = argv[++i];
+        } else if (!strcmp(argv[i], "--device") && i + 1 < argc) {
+            name = argv[++i];
+        } else if (argv[i][0] == '-' || wanted) {
+            usage(stderr);
+            return 2;
+        } else if (folder) {
+            wanted = argv[i];
+        } else {
+            folder = argv[i];
+        }
+    }
+    if (!folder) {
+        usage(stderr);
+        return 2;
+    }
+    device = gpu_open(name);
+    printf("%s\n", gpu_name(device));
+    judge_all(wanted ? wanted : "", &passed, &failed);
+    if (!wanted) judge_counts(&passed, &failed);
+    end();
+    if (passed + failed == 0) {
+        fprintf(stderr, "shader_tests: no test about shaders has a name that contains '%s'\n", wanted ? wanted : "");
+        return 2;
+    }
+    printf("%d passed, %d failed\n", passed, failed);
+    return failed != 0;
+}
