@@ -19,7 +19,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { RSM_SIZE = 512, MOST_RUNS = 15, LEAST_RUNS = 3, STAGES_OF_SHADERS = 2, LANGUAGES = 2, DIFFERENCE_SCALE = 10000 };
+enum { RSM_SIZE = 512, MOST_RUNS = 15, LEAST_RUNS = 3, STAGES_OF_SHADERS = 2, LANGUAGES = 2, DIFFERENCE_SCALE = 100000 };
 
 const char *const program_name = "gpu";
 

@@ -33,9 +33,8 @@ static void compare(gpu *device, const char *folder, const scene *world, const c
     shadow_map *maps = (shadow_map *)allocate("shadow maps", COUNT, sizeof *maps);
     image wanted = image_create(WIDTH, HEIGHT), got = image_create(WIDTH, HEIGHT);
     int shadows, stage;
-    set.lights[0].variance = 0;                        /* a point light */
-    set.lights[1].intensity[0] = lobe_vector(0, 0, 0); /* a component that is left out */
-    set.lights[1].emission[0].sharpness = NAN;
+    set.lights[0].variance = 0;                           /* a point light */
+    set.lights[1].intensity[0] = lobe_vector(-1, -1, -1); /* a component that is left out */
     vsgl_shadow_maps(world, set.lights, COUNT, maps);
     for (shadows = 0; shadows < 2; shadows++) {
         const shadow_map *used = shadows ? maps : NULL;
