@@ -1,7 +1,8 @@
 # What the unit tests need to call shaders: awk -v want=c|glsl -f calls.awk headers exempt shaders
 #
 # c: a header that makes every call of a header's function, which a shader has too, one that asks the GPU.
-# glsl: the compute shader that answers them. A word is 4 bytes, and each argument takes the words of its type.
+# glsl: the compute shader that answers those of the function that FUNCTION is defined as: a driver takes long to choose
+# among all. A word is 4 bytes, and each argument takes the words of its type.
 # A public function that no shader has, and exempt.txt does not name, is an error; and so is one that it names in vain.
 
 function fail(what) {
@@ -198,10 +199,10 @@ function write_case(which, list, n, i, s, is_out, in_words, out_words, reads, wr
         pass = pass (i > 1 ? ", " : "") "a" i
     }
     if (shader_returns[callee] != "void") out_words += words_of(shader_returns[callee])
-    printf "    if (which == %d) {\n%s        at *= %du;\n        to *= %du;\n%s", which, declared, in_words, out_words, reads
+    printf "#if FUNCTION == %d\n%s        at *= %du;\n        to *= %du;\n%s", which, declared, in_words, out_words, reads
     if (shader_returns[callee] == "void") printf "        %s(%s);\n", callee, pass
     else printf "        put_%s(to, %s(%s));\n", shader_returns[callee], callee, pass
-    printf "%s    }\n", writes
+    printf "%s#endif\n", writes
 }
 
 END {

@@ -160,8 +160,8 @@ static void ask_in(function *f, int which, int in, const unsigned *questions, un
     gpu_buffer *buffers[2];
     if (!f->programs[in]) {
         char path[1024];
-        snprintf(path, sizeof path, "%s/%s/calls.comp.spv", folder, languages[in]);
-        f->programs[in] = gpu_compute_create(device, path, kinds, 2, which);
+        snprintf(path, sizeof path, "%s/%s/calls.%d.comp.spv", folder, languages[in], which);
+        f->programs[in] = gpu_compute_create(device, path, kinds, 2, 0);
     }
     buffers[0] = gpu_buffer_create(device, GPU_STORAGE, (size_t)groups * 64 * (size_t)f->in_words * sizeof *questions);
     buffers[1] = gpu_buffer_create(device, GPU_STORAGE, (size_t)groups * 64 * (size_t)f->out_words * sizeof *answers);
