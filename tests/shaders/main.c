@@ -235,15 +235,19 @@ static int is_about_shaders(void) {
 
 /* Runs a test on the answers in one language: -1 where it is not about shaders, else how many checks failed */
 static int judge_in(const test_case *test, int in) {
-    int round;
+    int round, failures = 0, settled = 0;
     language = in;
     forget();
     test_quiet = 1;
-    for (round = 0; round < MOST_ROUNDS; round++) {
-        test_run(test);
-        if (!ask_all()) break;
+    for (round = 0; round < MOST_ROUNDS && !settled; round++) {
+        failures = test_run(test);
+        settled = !ask_all();
     }
     if (!is_about_shaders()) return -1;
+    if (settled && !failures && !test_verbose) {
+        if (!test_seed) printf("ok     %s\n", test->name);
+        return 0;
+    }
     test_quiet = test_seed != 0; /* more of the same */
     return test_run(test);
 }
@@ -322,7 +326,7 @@ int main(int argc, char **argv) {
     int passed = 0, failed = 0, i;
     test_files = argv[0];
     test_slack = 4;
-    test_most = ENOUGH;
+    test_most = ENOUGH + ENOUGH / 20; /* some draws are alike */
     for (i = 1; i < argc; i++) {
         if (!strcmp(argv[i], "--help")) {
             usage(stdout);
