@@ -65,6 +65,7 @@ made c > "$build/redirect.part" || exit 1
     made glsl
 } > "$build/glsl/calls.comp"
 $derive "$build/glsl/calls.comp" > "$build/hlsl/calls.comp.hlsl" 2> "$build/log" || failed calls
+$derive "$here/precision.comp" > "$build/hlsl/precision.comp.hlsl" 2> "$build/log" || failed precision
 
 # SPIR-V.
 compile() { # language, source, what it is to become, options...
@@ -74,11 +75,12 @@ compile() { # language, source, what it is to become, options...
     spirv-val --target-env vulkan1.1 "$to" > "$build/log" 2>&1 || failed "$source"
 }
 count=0
-for shader in "$glsl"/*.comp "$glsl"/*.vert "$glsl"/*.frag; do
+for shader in "$here/precision.comp" "$glsl"/*.comp "$glsl"/*.vert "$glsl"/*.frag; do
     [ -e "$shader" ] || continue
-    name=$(basename "$shader")
+    name=$(basename "$shader") twins=$hlsl
+    [ "$name" != precision.comp ] || twins=$build/hlsl
     compile glsl "$shader" "$name"
-    compile hlsl "$hlsl/$name.hlsl" "$name" -D -e main -S "${name##*.}"
+    compile hlsl "$twins/$name.hlsl" "$name" -D -e main -S "${name##*.}"
     count=$((count + 1))
 done
 # Without optimisation, so that both languages give the same operations: by default glslang fuses HLSL's a * b + c.
