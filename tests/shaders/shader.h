@@ -16,7 +16,7 @@
 void shader_begin(int function, const char *name, int in_words, int out_words);
 void shader_in(const void *argument, size_t size);
 void shader_in_some(const void *elements, size_t size, int count, int most);
-void shader_in_pyramid(const fis_pyramid *pdf);   /* its texels go into the pool of them, if they are not there */
+void shader_in_pyramid(const fis_pyramid *pdf);    /* its texels go into the pool of them, if they are not there */
 void shader_in_planes(const fis_pyramid *pyramid); /* the same by planes of four channels */
 void shader_find(void);
 void shader_out(void *result, size_t size);
