@@ -167,10 +167,24 @@ static void integral_worst(void) {
     free(image);
 }
 
+/* 1 + ceil(log2 of the larger) */
+static void check_levels(int width, int height) {
+    int larger = width > height ? width : height, wanted = 1;
+    double in[2];
+    while (1 << (wanted - 1) < larger) wanted++;
+    in[0] = width, in[1] = height;
+    test_that(fis_levels(width, height) == wanted, "fis_levels", in, 2);
+}
+
 static void levels(void) {
     static const int wanted[][3] = {{1, 1, 1},      {2, 1, 2},    {1, 3, 3},        {4, 4, 3},         {5, 4, 4},
                                     {512, 512, 10}, {513, 2, 11}, {1920, 1088, 12}, {32768, 32768, 16}};
+    int width, height, draw;
     size_t i;
+    for (width = 1; width <= 330; width++)
+        for (height = 1; height <= 330; height++) check_levels(width, height);
+    for (draw = 0; draw < 20000; draw++)
+        check_levels((int)test_log_uniform(&test_random, 1, 32768), (int)test_log_uniform(&test_random, 1, 32768));
     for (i = 0; i < sizeof wanted / sizeof *wanted; i++) {
         double input = (double)i;
         test_that(fis_levels(wanted[i][0], wanted[i][1]) == wanted[i][2], "fis_levels", &input, 1);
@@ -481,6 +495,12 @@ static void warp_borders(void) {
 
 /* ---- kernel sizes ---- */
 
+/* Some of the lattice, others for each seed */
+static fis_point place(int i, int n) {
+    enum { SEEDS = 101 };
+    return fis_lattice(SEEDS * i + (int)(test_seed >> 32) % SEEDS, SEEDS * n);
+}
+
 static const int counts[] = {1, 2, 37, 1024, 100000};
 static const float factors[] = {1, 4, 0.3f, 1e-6f, 1e6f};
 
@@ -497,7 +517,7 @@ static void level_solver(void) {
             fis_pyramid pdf = build_pdf(image, width, height);
             reference r = make_reference(image, width, height);
             for (i = 0; i < 24; i++) {
-                fis_sample s = fis_warp(&pdf, fis_lattice(i, 24));
+                fis_sample s = fis_warp(&pdf, place(i, 24));
                 for (count = 0; count < 5; count++) {
                     for (factor = 0; factor < 5; factor++) {
                         int n = counts[count];
@@ -615,8 +635,8 @@ static void density(void) {
             float *image = make_image(kind, width, height, 33);
             fis_pyramid pdf = build_pdf(image, width, height);
             reference r = make_reference(image, width, height);
-            for (i = 0; i < 12 * 25; i++) {
-                fis_sample s = fis_warp(&pdf, fis_lattice(i / 25, 12));
+            for (i = 0; i < 48 * 25; i++) {
+                fis_sample s = fis_warp(&pdf, place(i, 48 * 25));
                 double low = DBL_MAX, high = 0;
                 int n = counts[i % 5], corner;
                 float k = factors[factor = i / 5 % 5];

@@ -42,6 +42,8 @@ s/\bgl_FragCoord\b/position/g
 s/\bgl_VertexIndex\b/vertex/g
 s/\bgl_Position\b/position/g
 
+s/\btexelFetch\(([a-z_]+), ivec2\(([^()]+)\), level\)/\1.Load(int3(\2, level))/g
+s/\btexelFetch\(([a-z_]+), ivec3\(([^()]+)\), level\)/\1.Load(int4(\2, level))/g
 s/\bvec([234])\b/float\1/g
 s/\bivec([234])\b/int\1/g
 s/\buvec([234])\b/uint\1/g

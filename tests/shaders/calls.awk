@@ -3,6 +3,7 @@
 # c: a header that makes every call of a header's function, which a shader has too, one that asks the GPU.
 # glsl: the compute shader that answers those of the function that FUNCTION is defined as: a driver takes long to choose
 # among all. A word is 4 bytes, and each argument takes the words of its type.
+# A shader's function whose last parameter is a plane gives four of the channels that the header's gives all of.
 # A public function that no shader has, and exempt.txt does not name, is an error; so is one that it names in vain, and
 # one that is out of its header's order.
 
@@ -125,7 +126,7 @@ kind == "shader" && /\) \{$/ {
     statement = ""
 }
 
-function write_c(which, list, n, i, in_words, out_words, s, pass, before, results, size) {
+function write_c(which, list, n, i, in_words, out_words, s, pass, before, results, size, planes) {
     n = split(shader_arguments[callee], list, ",")
     in_words = out_words = 0
     for (i = 1; i <= n; i++) {
@@ -134,6 +135,7 @@ function write_c(which, list, n, i, in_words, out_words, s, pass, before, result
         sub(/^(out|in|const) /, "", s)
         declare(s)
         size[i] = count
+        planes = name == "plane"
         if (before) out_words += words_of(type) * (count ? count : 1)
         else in_words += words_of(type) * (count ? count : 1)
     }
@@ -141,6 +143,17 @@ function write_c(which, list, n, i, in_words, out_words, s, pass, before, result
     printf "static inline %s shader_%s(%s) {\n", returns[callee], callee, arguments[callee]
     n = split(arguments[callee], list, ",")
     pass = results = ""
+    if (planes) {
+        for (i = 1; i <= n; i++) pass = pass (i > 1 ? ", " : "") name_of(list[i])
+        printf "    int plane;\n    %s(%s);\n", callee, pass
+        printf "    for (plane = 0; 4 * plane < %s->channels; plane++) {\n", name_of(list[1])
+        printf "    shader_begin(%d, \"%s\", %d, %d);\n    shader_in_planes(%s);\n", which, callee, in_words, out_words, name_of(list[1])
+        for (i = 2; i < n; i++) printf "    shader_in(&%s, sizeof %s);\n", name_of(list[i]), name_of(list[i])
+        printf "    shader_in(&plane, sizeof plane);\n    shader_find();\n"
+        printf "    shader_out(%s + 4 * plane, sizeof *%s * (size_t)(%s->channels < 4 * plane + 4 ? %s->channels - 4 * plane : 4));\n    }\n}\n", name_of(list[n]), name_of(list[n]), name_of(list[1]), name_of(list[1])
+        printf "#define %s shader_%s\n\n", callee, callee
+        return
+    }
     printf "    shader_begin(%d, \"%s\", %d, %d);\n", which, callee, in_words, out_words
     for (i = 1; i <= n; i++) {
         s = trim(list[i])

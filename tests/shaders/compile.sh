@@ -39,7 +39,7 @@ for version in '450 core' '300 es'; do
         echo "#version $version"
         [ "$version" != '300 es' ] || printf 'precision highp float;\nprecision highp int;\n'
         cat $modules
-        [ ! -e "$here/texels.glsl" ] || grep -v buffer "$here/texels.glsl"
+        cat "$here/mips.glsl"
         echo 'void main() {}'
     } > "$build/functions.frag"
     glslangValidator "$build/functions.frag" > "$build/log" 2>&1 || failed "functions as GLSL $version"
@@ -61,7 +61,7 @@ made c > "$build/redirect.part" || exit 1
 } > "$build/redirect.h"
 {
     echo '#version 450'
-    cat $modules "$here"/words.glsl
+    cat $modules "$here/texels.glsl" "$here/words.glsl"
     made glsl
 } > "$build/glsl/calls.comp"
 $derive "$build/glsl/calls.comp" > "$build/hlsl/calls.comp.hlsl" 2> "$build/log" || failed calls
