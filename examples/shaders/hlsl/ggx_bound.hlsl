@@ -304,8 +304,8 @@ float lobe_ggx_form_merit(lobe_ggx_form q) {
 }
 
 // The same for an anisotropic NDF; tangent and alphas as in ggx_ndf_aniso
-ggx_ellipsoid ggx_bound_ellipsoid_aniso(float3 position, float3 normal, float3 tangent, float3 wi, float alpha_x,
-                                        float alpha_y, float flux, float fresnel_max, float delta, float xi) {
+ggx_ellipsoid ggx_bound_ellipsoid_aniso(float3 position, float3 normal, float3 tangent, float3 wi, float alpha_x, float alpha_y,
+                                        float flux, float fresnel_max, float delta, float xi) {
     float ax = lobe_ggx_alpha(alpha_x), ay = lobe_ggx_alpha(alpha_y);
     float3 tx, ty, u = lobe_ggx_mirror(normal, wi), w = lobe_ggx_across(normal, wi, u), v = cross(w, u);
     float c = lobe_ggx_cosine(normal, wi), s = lobe_ggx_sine(normal, wi), c2 = c * c;
@@ -322,8 +322,10 @@ ggx_ellipsoid ggx_bound_ellipsoid_aniso(float3 position, float3 normal, float3 t
     float b = x11 * c2 + x22, difference = x11 * c2 - x22;
     float kappa = 2.0 * xx * yy / max(b + sqrt(difference * difference + 4.0 * c2 * x12 * x12), 1e-30);
     float c1 = sqrt(max(x11 - kappa, 0.0)), c2_rest = sqrt(max(x22 - kappa * c2, 0.0));
-    if (c1 > c2_rest) c2_rest = x12 / max(c1, 1e-30);
-    else c1 = x12 / max(c2_rest, 1e-30);
+    if (c1 > c2_rest)
+        c2_rest = x12 / max(c1, 1e-30);
+    else
+        c1 = x12 / max(c2_rest, 1e-30);
     // the quadratic form in U and along (c1 c, c2), for the best of three d
     float eps = 2.0 / (2.0 + kappa), ev = c1 * c, ew = c2_rest, l2 = ev * ev + ew * ew;
     float d = lobe_ggx_tightness(0.5 * eps * (c2 * c1 * c1 + ew * ew), eps, c2, s), least = min(1.25 * eps, d);
@@ -438,8 +440,8 @@ bool ggx_ellipsoid_hits_half_space(ggx_ellipsoid e, float3 normal, float offset)
 // Whether the plane across a direction surely parts an ellipsoid and a box at an offset from its center
 bool lobe_ggx_parted(ggx_ellipsoid e, float3 direction, float3 offset, float3 half_size, float slack) {
     float3 size = abs(direction);
-    return abs(dot(direction, offset)) > dot(size, half_size) + ggx_ellipsoid_reach(e, direction) +
-                                             slack * (size.x + size.y + size.z);
+    return abs(dot(direction, offset)) >
+           dot(size, half_size) + ggx_ellipsoid_reach(e, direction) + slack * (size.x + size.y + size.z);
 }
 
 // Whether an ellipsoid meets a box along the coordinate axes
