@@ -778,8 +778,9 @@ static void products_are_bounded(void) {
         w = weight((double)asg_product_integral(a, b), first, second);
         back = weight((double)asg_product_integral(b, a), first, second);
         test_that(w >= 0, "an integral is not negative", inputs, 5);
-#if !defined(__FAST_MATH__) && !(defined(__clang__) && defined(__FMA__)) /* then sums are as written */
-        test_that(asg_product_integral(a, b) == asg_product_integral(b, a), "exactly symmetric", inputs, 5);
+#if !defined(__FAST_MATH__) && !(defined(__clang__) && defined(__FMA__)) /* then sums are as written; no shader's are */
+        test_that(test_slack > 1 || asg_product_integral(a, b) == asg_product_integral(b, a), "exactly symmetric",
+                  inputs, 5);
 #endif
         test_within(&excess, fmax(w, 1), 1, 1, inputs, 5);
         test_within(&symmetric, w, back, 1, inputs, 5);

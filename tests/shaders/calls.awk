@@ -1,8 +1,10 @@
 # What the unit tests need to call shaders: awk -v want=c|glsl -f calls.awk headers exempt shaders
 #
 # c: a header that makes every call of a header's function, which a shader has too, one that asks the GPU.
-# glsl: the compute shader that answers them. A word is 4 bytes, and each argument takes the words of its type.
-# A public function that no shader has, and exempt.txt does not name, is an error; and so is one that it names in vain.
+# glsl: the compute shader that answers those of the function that FUNCTION is defined as: a driver takes long to choose
+# among all. A word is 4 bytes, and each argument takes the words of its type.
+# A public function that no shader has, and exempt.txt does not name, is an error; so is one that it names in vain, and
+# one that is out of its header's order.
 
 function fail(what) {
     print FILENAME ": " what > "/dev/stderr"
@@ -36,6 +38,22 @@ function words_of(type) {
     return words[type]
 }
 
+function base_of(path) {
+    sub(/^.*\//, "", path)
+    sub(/\.[a-z]*$/, "", path)
+    return path
+}
+
+# A shader has its header's functions in its header's order; only the first that is out of it is told.
+function follow() {
+    if (home[name] != base_of(FILENAME)) fail(name " is one of " home[name] ".h")
+    else if (FILENAME in last && place[name] < place[last[FILENAME]]) {
+        if (!(FILENAME in strays)) fail(name " comes after " last[FILENAME] ", in " home[name] ".h before it")
+        strays[FILENAME] = 1
+    }
+    last[FILENAME] = name
+}
+
 FNR == 1 { kind = FILENAME ~ /\.h$/ ? "header" : FILENAME ~ /\.txt$/ ? "exempt" : "shader" }
 
 kind == "exempt" {
@@ -51,6 +69,8 @@ kind == "header" && /\{$/ {
         head = substr(statement, 2, open - 2)
         sub(/^LOBE_(API|INLINE) /, "", head)
         declare(head)
+        place[name] = publics
+        home[name] = base_of(FILENAME)
         public[publics++] = name
         returns[name] = type
         close_at = index(statement, ") {")
@@ -95,6 +115,7 @@ kind == "shader" && /\) \{$/ {
         open = index(statement, "(")
         declare(substr(statement, 2, open - 2))
         if (!(name in shader)) {
+            if (name in place) follow()
             shader[name] = 1
             shader_returns[name] = type
             close_at = index(statement, ") {")
@@ -198,10 +219,10 @@ function write_case(which, list, n, i, s, is_out, in_words, out_words, reads, wr
         pass = pass (i > 1 ? ", " : "") "a" i
     }
     if (shader_returns[callee] != "void") out_words += words_of(shader_returns[callee])
-    printf "    if (which == %d) {\n%s        at *= %du;\n        to *= %du;\n%s", which, declared, in_words, out_words, reads
+    printf "#if FUNCTION == %d\n%s        at *= %du;\n        to *= %du;\n%s", which, declared, in_words, out_words, reads
     if (shader_returns[callee] == "void") printf "        %s(%s);\n", callee, pass
     else printf "        put_%s(to, %s(%s));\n", shader_returns[callee], callee, pass
-    printf "%s    }\n", writes
+    printf "%s#endif\n", writes
 }
 
 END {

@@ -65,22 +65,28 @@ made c > "$build/redirect.part" || exit 1
     made glsl
 } > "$build/glsl/calls.comp"
 $derive "$build/glsl/calls.comp" > "$build/hlsl/calls.comp.hlsl" 2> "$build/log" || failed calls
+$derive "$here/precision.comp" > "$build/hlsl/precision.comp.hlsl" 2> "$build/log" || failed precision
 
 # SPIR-V.
-compile() { # language, source, options...
-    local language=$1 source=$2 to
-    to=$build/$language/$(basename "$source" .hlsl).spv
-    shift 2
+compile() { # language, source, what it is to become, options...
+    local language=$1 source=$2 to=$build/$1/$3.spv
+    shift 3
     glslangValidator "$@" -V --target-env vulkan1.1 "$source" -o "$to" > "$build/log" 2>&1 || failed "$source"
     spirv-val --target-env vulkan1.1 "$to" > "$build/log" 2>&1 || failed "$source"
 }
 count=0
-for shader in "$build/glsl/calls.comp" "$glsl"/*.comp "$glsl"/*.vert "$glsl"/*.frag; do
+for shader in "$here/precision.comp" "$glsl"/*.comp "$glsl"/*.vert "$glsl"/*.frag; do
     [ -e "$shader" ] || continue
-    name=$(basename "$shader") twin=$hlsl
-    [ "$name" != calls.comp ] || twin=$build/hlsl
-    compile glsl "$shader"
-    compile hlsl "$twin/$name.hlsl" -D -e main -S "${name##*.}"
+    name=$(basename "$shader") twins=$hlsl
+    [ "$name" != precision.comp ] || twins=$build/hlsl
+    compile glsl "$shader" "$name"
+    compile hlsl "$twins/$name.hlsl" "$name" -D -e main -S "${name##*.}"
+    count=$((count + 1))
+done
+# Without optimisation, so that both languages give the same operations: by default glslang fuses HLSL's a * b + c.
+for function in $(sed -n 's/^#if FUNCTION == //p' "$build/glsl/calls.comp"); do
+    compile glsl "$build/glsl/calls.comp" "calls.$function.comp" -DFUNCTION="$function"
+    compile hlsl "$build/hlsl/calls.comp.hlsl" "calls.$function.comp" -DFUNCTION="$function" -Od -D -e main -S comp
     count=$((count + 1))
 done
 echo "ok     $count shaders as SPIR-V, from each language"

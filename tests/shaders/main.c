@@ -2,7 +2,9 @@
 #include "../../examples/common/fail.h"
 #include "../../examples/common/gpu.h"
 #include "../test.h"
+#include "precision.h"
 #include "shader.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -160,8 +162,8 @@ static void ask_in(function *f, int which, int in, const unsigned *questions, un
     gpu_buffer *buffers[2];
     if (!f->programs[in]) {
         char path[1024];
-        snprintf(path, sizeof path, "%s/%s/calls.comp.spv", folder, languages[in]);
-        f->programs[in] = gpu_compute_create(device, path, kinds, 2, which);
+        snprintf(path, sizeof path, "%s/%s/calls.%d.comp.spv", folder, languages[in], which);
+        f->programs[in] = gpu_compute_create(device, path, kinds, 2, 0);
     }
     buffers[0] = gpu_buffer_create(device, GPU_STORAGE, (size_t)groups * 64 * (size_t)f->in_words * sizeof *questions);
     buffers[1] = gpu_buffer_create(device, GPU_STORAGE, (size_t)groups * 64 * (size_t)f->out_words * sizeof *answers);
@@ -235,15 +237,19 @@ static int is_about_shaders(void) {
 
 /* Runs a test on the answers in one language: -1 where it is not about shaders, else how many checks failed */
 static int judge_in(const test_case *test, int in) {
-    int round;
+    int round, failures = 0, settled = 0;
     language = in;
     forget();
     test_quiet = 1;
-    for (round = 0; round < MOST_ROUNDS; round++) {
-        test_run(test);
-        if (!ask_all()) break;
+    for (round = 0; round < MOST_ROUNDS && !settled; round++) {
+        failures = test_run(test);
+        settled = !ask_all();
     }
     if (!is_about_shaders()) return -1;
+    if (settled && !failures && !test_verbose) {
+        if (!test_seed) printf("ok     %s\n", test->name);
+        return 0;
+    }
     test_quiet = test_seed != 0; /* more of the same */
     return test_run(test);
 }
@@ -321,8 +327,7 @@ int main(int argc, char **argv) {
     const char *wanted = NULL, *name = "";
     int passed = 0, failed = 0, i;
     test_files = argv[0];
-    test_slack = 4;
-    test_most = ENOUGH;
+    test_most = ENOUGH + ENOUGH / 20; /* some draws are alike */
     for (i = 1; i < argc; i++) {
         if (!strcmp(argv[i], "--help")) {
             usage(stdout);
@@ -348,6 +353,9 @@ int main(int argc, char **argv) {
     }
     device = gpu_open(name);
     printf("%s\n", gpu_name(device));
+    /* Errors are sums of those of operations, and a device has larger ones only in its own functions: at most that many
+       times. The 4 are for other orders of operations. */
+    test_slack = fmax(4, precision_measure(device, folder, &failed));
     judge_all(wanted ? wanted : "", &passed, &failed);
     if (!wanted) judge_counts(&passed, &failed);
     end();

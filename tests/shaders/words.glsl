@@ -1,7 +1,6 @@
 // What the unit tests ask: each invocation reads its words, calls the function that is being asked for, and writes
 // words. calls.awk adds the rest.
 
-layout(constant_id = 0) const int which = 0;
 layout(std430, binding = 0) readonly buffer questions_buffer { uint questions[]; };
 layout(std430, binding = 1) buffer answers_buffer { uint answers[]; };
 
