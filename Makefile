@@ -156,10 +156,11 @@ $(BUILD)/shader_tests: $(SHADER_TESTS) $(BUILD)/shaders/compiled $(wildcard test
                        $(HEADERS) $(BUILD)/flags
 	$(COMPILE) -include $(BUILD)/shaders/redirect.h $(SHADER_TESTS) -o $@ -lvulkan -lm
 
+# cull.c includes examples/light_culling.c, for its stages.
 PIPELINE_TESTS = $(wildcard tests/shaders/pipelines/*.c) $(COMMON) $(wildcard examples/common/gpu*.c)
 
 $(BUILD)/pipeline_tests: $(PIPELINE_TESTS) $(BUILD)/shaders/compiled $(wildcard tests/shaders/pipelines/*.h examples/common/*.h) \
-                         $(HEADERS) $(BUILD)/flags
+                         examples/light_culling.c $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(OPENMP) $(PIPELINE_TESTS) -o $@ -lvulkan -lm
 
 $(BUILD)/gpu: examples/gpu.c $(COMMON) $(wildcard examples/common/gpu*.c examples/common/*.h) $(BUILD)/shaders/compiled \

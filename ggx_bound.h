@@ -586,7 +586,7 @@ LOBE_API ggx_ellipsoid ggx_bound_ellipsoid_aniso(lobe_vec3 position, lobe_vec3 n
                                                  float alpha_x, float alpha_y, float flux, float fresnel_max,
                                                  float delta, float xi) {
     float ax = lobe_ggx_alpha(alpha_x), ay = lobe_ggx_alpha(alpha_y), xx, xy, cosine, sine, x11, x22, x12, det;
-    float c2, b, difference, kappa, c1, c2_rest, l2, eps, h, d, least, r, level, half, root, turn, turn_cos, merit;
+    float c2, b, difference, kappa, c1, c2_rest, l2, eps, h, d, least, r, level, apart, root, turn, turn_cos, merit;
     float first, second, along, aside, size, ev, ew;
     int better;
     lobe_ggx_form q, other;
@@ -646,10 +646,10 @@ LOBE_API ggx_ellipsoid ggx_bound_ellipsoid_aniso(lobe_vec3 position, lobe_vec3 n
     along = r - eps * r * (q.bb / q.det);
     aside = -eps * r * (q.ub / q.det);
     level = eps * r * sqrtf(q.bb / q.det);
-    half = 0.5f * (q.bb - q.uu);
-    root = sqrtf(half * half + q.ub * q.ub);
-    turn = q.ub / lobe_at_least(fabsf(half) + root, LOBE_TINY);
-    better = half >= 0;
+    apart = 0.5f * (q.bb - q.uu);
+    root = sqrtf(apart * apart + q.ub * q.ub);
+    turn = q.ub / lobe_at_least(fabsf(apart) + root, LOBE_TINY);
+    better = apart >= 0;
     turn = lobe_select(better, turn, -turn);
     first = 0.5f * (q.uu + q.bb) + root;
     second = q.det / first;
@@ -817,15 +817,15 @@ LOBE_API int ggx_ellipsoid_hits_half_space(ggx_ellipsoid e, lobe_vec3 normal, fl
 }
 
 /* Distance along one of the ellipsoid's axes to a box, over the radius; slack: what rounding may take from it */
-LOBE_API float lobe_ggx_gap(lobe_vec3 axis, float radius, lobe_vec3 offset, lobe_vec3 half, float slack) {
-    float reach = fabsf(axis.x) * half.x + fabsf(axis.y) * half.y + fabsf(axis.z) * half.z + slack;
+LOBE_API float lobe_ggx_gap(lobe_vec3 axis, float radius, lobe_vec3 offset, lobe_vec3 half_size, float slack) {
+    float reach = fabsf(axis.x) * half_size.x + fabsf(axis.y) * half_size.y + fabsf(axis.z) * half_size.z + slack;
     return lobe_at_least(fabsf(lobe_dot(axis, offset)) - reach, 0) / radius;
 }
 
 /* Whether the plane across a direction surely parts an ellipsoid and a box at an offset from its center */
-LOBE_API int lobe_ggx_parted(ggx_ellipsoid e, lobe_vec3 direction, lobe_vec3 offset, lobe_vec3 half, float slack) {
+LOBE_API int lobe_ggx_parted(ggx_ellipsoid e, lobe_vec3 direction, lobe_vec3 offset, lobe_vec3 half_size, float slack) {
     float size = fabsf(direction.x) + fabsf(direction.y) + fabsf(direction.z);
-    float box = fabsf(direction.x) * half.x + fabsf(direction.y) * half.y + fabsf(direction.z) * half.z;
+    float box = fabsf(direction.x) * half_size.x + fabsf(direction.y) * half_size.y + fabsf(direction.z) * half_size.z;
     return fabsf(lobe_dot(direction, offset)) > box + ggx_ellipsoid_reach(e, direction) + slack * size;
 }
 
@@ -853,15 +853,15 @@ LOBE_API lobe_vec3 lobe_ggx_gradient(lobe_ggx_metric m, lobe_vec3 p) {
                        m.xz * p.x + m.yz * p.y + m.zz * p.z);
 }
 
-LOBE_API float lobe_ggx_clamp(float x, float middle, float half) {
-    return lobe_min(lobe_max(x, middle - half), middle + half);
+LOBE_API float lobe_ggx_clamp(float x, float middle, float half_size) {
+    return lobe_min(lobe_max(x, middle - half_size), middle + half_size);
 }
 
 /* Lowers the stretched distance of a box's point along each coordinate in turn, as far as the box allows */
-LOBE_API lobe_vec3 lobe_ggx_descend(lobe_ggx_metric m, lobe_vec3 p, lobe_vec3 middle, lobe_vec3 half) {
-    p.x = lobe_ggx_clamp(-(m.xy * p.y + m.xz * p.z) / lobe_at_least(m.xx, LOBE_TINY), middle.x, half.x);
-    p.y = lobe_ggx_clamp(-(m.xy * p.x + m.yz * p.z) / lobe_at_least(m.yy, LOBE_TINY), middle.y, half.y);
-    p.z = lobe_ggx_clamp(-(m.xz * p.x + m.yz * p.y) / lobe_at_least(m.zz, LOBE_TINY), middle.z, half.z);
+LOBE_API lobe_vec3 lobe_ggx_descend(lobe_ggx_metric m, lobe_vec3 p, lobe_vec3 middle, lobe_vec3 half_size) {
+    p.x = lobe_ggx_clamp(-(m.xy * p.y + m.xz * p.z) / lobe_at_least(m.xx, LOBE_TINY), middle.x, half_size.x);
+    p.y = lobe_ggx_clamp(-(m.xy * p.x + m.yz * p.z) / lobe_at_least(m.yy, LOBE_TINY), middle.y, half_size.y);
+    p.z = lobe_ggx_clamp(-(m.xz * p.x + m.yz * p.y) / lobe_at_least(m.zz, LOBE_TINY), middle.z, half_size.z);
     return p;
 }
 

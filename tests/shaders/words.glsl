@@ -14,6 +14,10 @@ int next_int(inout uint at) {
     return int(next_uint(at));
 }
 
+bool next_bool(inout uint at) {
+    return next_uint(at) != 0u;
+}
+
 float next_float(inout uint at) {
     return uintBitsToFloat(next_uint(at));
 }

@@ -37,7 +37,8 @@ typedef struct {
     void (*run)(gpu *device, const char *folder);
 } pipeline;
 
-static const pipeline pipelines[] = {{"shade", pipeline_shade}, {"generate", pipeline_generate}};
+static const pipeline pipelines[] = {
+    {"generate", pipeline_generate}, {"shade", pipeline_shade}, {"cull", pipeline_cull}};
 
 static void usage(FILE *to) {
     fprintf(to, "usage: pipeline_tests [--device NAME] FOLDER [PIPELINE]\n"
