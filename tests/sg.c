@@ -729,7 +729,7 @@ static void test_reflection_lobe(void) {
     test_bound bound = test_bound_of("sg.h", "sg_reflection_lobe", "ulp");
     test_bound mirror = stated("sg_reflection_lobe axis", 8);
     int i;
-    for (i = 0; i < 50000; i++) {
+    for (i = 0; i < 110000; i++) {
         lobe_vec3 normal, wi;
         vec n, w;
         double cosine, half, wanted;

@@ -296,13 +296,15 @@ static void ask(function *f, int which) {
     f->answered = f->count;
 }
 
-static int ask_all(void) {
-    int i, news = 0;
+/* Returns how many were new, and tells whether those were few. */
+static int ask_all(int *few) {
+    int i, news = 0, count = 0;
     for (i = 0; i < SHADER_FUNCTIONS; i++) {
-        if (functions[i].count == functions[i].answered) continue;
-        ask(&functions[i], i);
-        news = 1;
+        count += functions[i].count;
+        news += functions[i].count - functions[i].answered;
+        if (functions[i].count > functions[i].answered) ask(&functions[i], i);
     }
+    *few = news <= count / 32;
     return news;
 }
 
@@ -324,11 +326,11 @@ static const char *exception_of(const char *test) {
     return NULL;
 }
 
-/* Whether the test asks for a function of which not enough has been asked */
-static int is_wanted(void) {
+/* Whether the test asked for a function of which not enough has been asked, in all tests */
+static int is_wanted(const char *asks) {
     int i;
     for (i = 0; i < SHADER_FUNCTIONS; i++)
-        if (functions[i].asked && functions[i].total < ENOUGH) return 1;
+        if (asks[i] && functions[i].total < ENOUGH) return 1;
     return 0;
 }
 
@@ -341,16 +343,16 @@ static int is_about_shaders(void) {
 
 /* Runs a test on the answers in one language: -1 where it is not about shaders, else how many checks failed */
 static int judge_in(const test_case *test, int in) {
-    int round, failures = 0, settled = 0;
+    int round, failures = 0, news = 1, few = 0;
     language = in;
     forget();
     test_quiet = 1;
-    for (round = 0; round < MOST_ROUNDS && !settled; round++) {
+    for (round = 0; round < MOST_ROUNDS && !few; round++) { /* what a search asks depends on all answers before */
         failures = test_run(test);
-        settled = !ask_all();
+        news = ask_all(&few);
     }
     if (!is_about_shaders()) return -1;
-    if (settled && !failures && !test_verbose) {
+    if (!news && !failures && !test_verbose) {
         if (!test_seed) printf("ok     %s\n", test->name);
         return 0;
     }
@@ -369,26 +371,25 @@ static int judge(const test_case *test) {
 }
 
 static void judge_all(const char *wanted, int *passed, int *failed) {
-    static char again[1024]; /* tests that ask for what may need more */
-    int table, at, failures, seed;
-    for (seed = 0; seed < MOST_SEEDS; seed++) {
-        int repeated = 0;
+    static char asks[1024][SHADER_FUNCTIONS]; /* of each test */
+    int table, at, failures, seed, repeated = 1, i;
+    for (seed = 0; repeated && seed < MOST_SEEDS; seed++) {
+        repeated = 0;
         test_seed = (unsigned long long)seed << 32;
         for (table = at = 0; test_tables[table]; table++) {
             const test_case *test;
             for (test = test_tables[table]; test->name; test++, at++) {
                 if (!strstr(test->name, wanted) || exception_of(test->name)) continue;
-                if (seed && !again[at]) continue;
+                if (seed && !is_wanted(asks[at])) continue;
                 failures = judge(test);
                 if (failures < 0) continue;
-                again[at] = (char)is_wanted();
-                repeated |= again[at];
+                for (i = 0; i < SHADER_FUNCTIONS; i++) asks[at][i] = (char)functions[i].asked;
+                repeated = 1;
                 if (seed && failures) printf("FAILED %s, seed %d\n", test->name, seed);
                 if (!seed && !failures) ++*passed;
                 if (failures) ++*failed;
             }
         }
-        if (!repeated) break;
     }
 }
 
