@@ -17,5 +17,6 @@ void shader_in(const void *argument, size_t size);
 void shader_in_some(const void *elements, size_t size, int count, int most);
 void shader_find(void);
 void shader_out(void *result, size_t size);
+void shader_out_some(void *elements, size_t size, int count, int most);
 
 #endif
