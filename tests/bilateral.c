@@ -358,7 +358,7 @@ static void mixtures_match(void) {
     test_bound below = bound_of("bilateral_sg_mixture_tap", "below");
     test_bound wide_lobes = bound_of("bilateral_sg_mixture_tap", "wide");
     int k;
-    for (k = 0; k < 100000; k++) {
+    for (k = 0; 20 * k < test_draws(2000000); k++) { /* nine pairs of lobes each */
         double inputs[2 * MOST_LOBES + 1], log_q, unit_of_q, beta = (double)(float)log_uniform(1e-3, 1e3);
         double low = k % 3 ? bound.low : 16, high = k % 3 == 1 ? 20 : k % 3 == 2 ? bound.high : tap.high;
         vec axis = random_direction();
@@ -471,7 +471,7 @@ static void check_weight(const char *form, float w, float back, float own, doubl
 
 static void weights_are_weights(void) {
     int k;
-    for (k = 0; 3 * k < test_draws(600000); k++) { /* three weights of each form */
+    for (k = 0; 25 * k < test_draws(5000000); k++) { /* a dozen pairs of lobes each */
         float beta = (float)log_uniform(1e-3, 1e3), vi = (float)log_uniform(1e-6, 1e6),
               vj = (float)log_uniform(1e-6, 1e6);
         double inputs[9], low = k % 4 ? 1e-8 : 1e-30, high = k % 4 ? 1e10 : 1e30;

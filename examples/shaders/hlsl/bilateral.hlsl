@@ -140,14 +140,14 @@ float bilateral_sg_weight(sg_lobe i, sg_lobe j, float beta) {
     return bilateral_sg_tap(0.0, bilateral_sg_prepare(i, beta), bilateral_sg_prepare(j, beta), beta);
 }
 
-// Integral of the product of one lobe of a pixel and one of another, in the unit of their mixtures: e^-L sinh L / L
-// with L = |la a + lb b|, as a difference of exponentials
+// Integral of the product of one lobe of a pixel and one of another, in the unit of their mixtures: that of an SG of
+// sharpness L = |la a + lb b|, all lengths times log2(e); where one has no tail, L is large or the integral nearly 0
 float bilateral_sg_pair(bilateral_sg_part a, bilateral_sg_part b) {
     float sum = a.sharpness + b.sharpness;
     float lost = a.sharpness * b.sharpness * lobe_bilateral_squared(a.axis, b.axis);
-    float size = sqrt(max(sum * sum - lost, 1e-8 * (sum * sum))), both = size + sum;
-    float exponent = min(lost / both, 125.0);
-    return a.amplitude * b.amplitude / size * (exp2(-exponent) - a.tail * b.tail * exp2(exponent));
+    float size = sqrt(max(sum * sum - lost, 1e-8 * (sum * sum)));
+    float inverse = a.tail * b.tail > 0.0 ? 1.38629436 * lobe_phi(1.38629436 * size) : 1.0 / size;
+    return a.amplitude * b.amplitude * inverse * exp2(-lost / (size + sum));
 }
 
 // The lobes of a pixel, up to 4, for bilateral_sg_pair; the rest of the parts are of amplitude 0
@@ -164,7 +164,7 @@ void bilateral_sg_mixture_prepare(sg_lobe lobes[4], int count, out bilateral_sg_
     for (int l = 0; l < count; l++) {
         for (int m = 0; m < count; m++) own += bilateral_sg_pair(parts[l], parts[m]);
     }
-    scale = sqrt(1.00001 / own); // a little more: q of equal mixtures is to reach 1
+    scale = sqrt(1.000002 / own); // a little more: q of equal mixtures is to reach 1
     for (int l = 0; l < count; l++) parts[l].amplitude *= scale;
 }
 
