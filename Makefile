@@ -39,6 +39,7 @@ help:
 	@echo 'make light_culling   an example: glossy caustics from 65,536 lights, culled with four bounding volumes'
 	@echo 'make env_lights      an example: an environment map as SG lights, ARGS="--map FILE" for one of yours'
 	@echo 'make lobe_filter     an example: filters of noisy glossy light that know the reflection lobes'
+	@echo 'make gpu             the shaders on a Vulkan device beside the same on the CPU: pictures and times'
 	@echo '                     each takes ARGS="--help"'
 	@echo 'make test            compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
 	@echo 'make bench           speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
@@ -161,9 +162,16 @@ $(BUILD)/pipeline_tests: $(PIPELINE_TESTS) $(BUILD)/shaders/compiled $(wildcard 
                          $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(OPENMP) $(PIPELINE_TESTS) -o $@ -lvulkan -lm
 
+$(BUILD)/gpu: examples/gpu.c $(COMMON) $(wildcard examples/common/gpu*.c examples/common/*.h) $(BUILD)/shaders/compiled \
+              $(HEADERS) $(BUILD)/flags
+	$(COMPILE) $(OPENMP) $(filter %.c,$^) -o $@ -lvulkan -lm
+
+gpu: $(BUILD)/gpu
+	$< --shaders $(BUILD)/shaders $(ARGS)
+
 # Changes when the compiler or its flags do, so that everything is built anew then.
 $(BUILD)/flags: force
 	@mkdir -p $(BUILD)
 	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
 
-.PHONY: run $(EXAMPLES) test bench fuzz setup hlsl shader-tools test-shaders help clean headers vectors readme force
+.PHONY: run $(EXAMPLES) gpu test bench fuzz setup hlsl shader-tools test-shaders help clean headers vectors readme force

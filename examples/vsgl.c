@@ -123,18 +123,6 @@ static light_set generate_view_lights(const vpl_map *view, const settings *o) {
     return set;
 }
 
-/* A shadow map at the mean of each light. Its own extent does not shade it. */
-static void render_shadow_maps(const scene *world, const light_set *set, shadow_map *maps) {
-    progress line = progress_begin("shadow maps", set->count);
-    int i;
-    PARALLEL_FOR
-    for (i = 0; i < set->count; i++) {
-        shadow_map_render(&maps[i], world, set->lights[i].position, 0.01f + sqrtf(set->lights[i].variance));
-        progress_step(&line);
-    }
-    progress_end(&line);
-}
-
 /* ---- what surrounds the pipeline ---- */
 
 static void light_directly(const scene *world, const buffer *view, image *direct) {
@@ -298,7 +286,7 @@ static void render(const scene *world, const vpl_map *view, const vpl_map *rsm, 
     vsgl_generate(&g, rsm, pdf, r->how, r->k, (unsigned)o->seed, &set);
     r->generation = set.ms[0] + set.ms[1] + set.ms[2];
     started = progress_clock();
-    render_shadow_maps(world, &set, maps);
+    vsgl_shadow_maps(world, set.lights, set.count, maps);
     r->visibility = progress_clock() - started;
     started = progress_clock();
     snprintf(label, sizeof label, "%d lights, %s", r->count, method_names[r->how]);

@@ -12,6 +12,8 @@ struct gpu {
     VkPhysicalDevice physical;
     VkDevice device;
     VkQueue queue;
+    uint32_t family;
+    uint64_t time_mask; /* the bits that a time stamp has */
     VkCommandPool pool;
     VkCommandBuffer commands;
     VkQueryPool queries; /* one time stamp before and one after */
@@ -43,26 +45,32 @@ static const VkFormat picture_format = VK_FORMAT_R32G32B32A32_SFLOAT;
 static void must(VkResult result, const char *what) {
     char why[64];
     if (result == VK_SUCCESS) return;
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER) give_up(what, "no driver of a device was found");
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) give_up(what, "not enough memory on the device");
+    if (result == VK_ERROR_DEVICE_LOST) give_up(what, "the device was lost, as when work takes it too long");
     snprintf(why, sizeof why, "Vulkan's error %d", (int)result);
     give_up(what, why);
 }
 
 /* ---- device ---- */
 
-static int find_queue_family(VkPhysicalDevice physical) {
+/* Its index, or -1 if there is none */
+static int find_queue_family(VkPhysicalDevice physical, uint32_t *time_bits) {
     const VkQueueFlags wanted = VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT;
     VkQueueFamilyProperties families[16];
     uint32_t count = 16, i;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families);
-    for (i = 0; i < count; i++)
-        if ((families[i].queueFlags & wanted) == wanted && families[i].timestampValidBits) return (int)i;
+    for (i = 0; i < count; i++) {
+        *time_bits = families[i].timestampValidBits;
+        if ((families[i].queueFlags & wanted) == wanted && *time_bits) return (int)i;
+    }
     return -1;
 }
 
 static void choose_device(gpu *g, const char *name) {
     VkPhysicalDevice devices[16];
-    uint32_t count = 16, i;
-    int best = -1;
+    uint32_t count = 16, time_bits, i;
+    int best = -1, family;
     VkResult result = vkEnumeratePhysicalDevices(g->instance, &count, devices);
     if (result != VK_INCOMPLETE) must(result, "list of Vulkan devices");
     for (i = 0; i < count; i++) {
@@ -71,12 +79,16 @@ static void choose_device(gpu *g, const char *name) {
         vkGetPhysicalDeviceProperties(devices[i], &p);
         rank = p.deviceType == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU ? 2 : p.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
         if (rank <= best || !strstr(p.deviceName, name) || p.apiVersion < VK_API_VERSION_1_3) continue;
-        if (find_queue_family(devices[i]) < 0) continue;
+        family = find_queue_family(devices[i], &time_bits);
+        if (family < 0) continue;
         best = rank;
         g->physical = devices[i];
         g->properties = p;
+        g->family = (uint32_t)family;
+        g->time_mask = ~(uint64_t)0 >> (64 - time_bits);
     }
-    if (best < 0) give_up(*name ? name : "GPU", "no device of Vulkan 1.3 by that name");
+    if (best < 0 && *name) give_up(name, "no device of Vulkan 1.3 has that in its name");
+    if (best < 0) give_up("GPU", "no device of Vulkan 1.3");
 }
 
 gpu *gpu_open(const char *name) {
@@ -98,7 +110,7 @@ gpu *gpu_open(const char *name) {
     choose_device(g, name);
     vkGetPhysicalDeviceMemoryProperties(g->physical, &g->memory);
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-    queue.queueFamilyIndex = (uint32_t)find_queue_family(g->physical);
+    queue.queueFamilyIndex = g->family;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
@@ -111,7 +123,7 @@ gpu *gpu_open(const char *name) {
     vkGetDeviceQueue(g->device, queue.queueFamilyIndex, 0, &g->queue);
     pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-    pool.queueFamilyIndex = queue.queueFamilyIndex;
+    pool.queueFamilyIndex = g->family;
     must(vkCreateCommandPool(g->device, &pool, NULL, &g->pool), "command pool");
     commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
     commands.commandPool = g->pool;
@@ -147,15 +159,19 @@ static void commands_begin(gpu *g) {
 }
 
 /* What was written is there for the commands to come, and for the CPU. */
-static void commands_finish(gpu *g) {
+static void commands_separate(gpu *g) {
     VkMemoryBarrier barrier = {0};
-    VkSubmitInfo submit = {0};
     barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
     barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT | VK_ACCESS_HOST_READ_BIT;
     vkCmdPipelineBarrier(g->commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                          VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, NULL, 0,
                          NULL);
+}
+
+static void commands_finish(gpu *g) {
+    VkSubmitInfo submit = {0};
+    commands_separate(g);
     must(vkEndCommandBuffer(g->commands), "command buffer");
     submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
     submit.commandBufferCount = 1;
@@ -164,9 +180,11 @@ static void commands_finish(gpu *g) {
     must(vkQueueWaitIdle(g->queue), g->properties.deviceName);
 }
 
+/* The barrier is for Mesa's llvmpipe: without it the stamp may be that of a later moment. */
 static void time_begin(gpu *g) {
     vkCmdResetQueryPool(g->commands, g->queries, 0, 2);
     vkCmdWriteTimestamp(g->commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, g->queries, 0);
+    commands_separate(g);
 }
 
 static double time_finish(gpu *g) {
@@ -176,7 +194,7 @@ static double time_finish(gpu *g) {
     must(vkGetQueryPoolResults(g->device, g->queries, 0, 2, sizeof ticks, ticks, sizeof *ticks,
                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
          "time stamps");
-    return (double)(ticks[1] - ticks[0]) * (double)g->properties.limits.timestampPeriod * 1e-6;
+    return (double)((ticks[1] - ticks[0]) & g->time_mask) * (double)g->properties.limits.timestampPeriod * 1e-6;
 }
 
 /* ---- memory ---- */
@@ -233,6 +251,9 @@ gpu_buffer *gpu_buffer_create(gpu *device, gpu_kind kind, size_t size) {
     gpu_buffer *b = allocate("buffer", 1, sizeof *b);
     VkBufferUsageFlags usage =
         kind == GPU_UNIFORM ? VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    const VkPhysicalDeviceLimits *limits = &device->properties.limits;
+    if (size > (kind == GPU_UNIFORM ? limits->maxUniformBufferRange : limits->maxStorageBufferRange))
+        give_up(device->properties.deviceName, "takes no buffer as large as this work needs");
     *b = buffer_of(device, size, usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                    VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     b->kind = kind;
@@ -279,6 +300,7 @@ static VkShaderModule module_of(gpu *g, const char *path) {
     words = allocate(path, count, 1); /* aligned */
     memcpy(words, bytes, count);
     free(bytes);
+    if (count < sizeof *words || count % sizeof *words || *words != 0x07230203u) give_up(path, "not SPIR-V");
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     info.codeSize = count;
     info.pCode = words;

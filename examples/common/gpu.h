@@ -23,6 +23,7 @@ typedef struct gpu_program gpu_program;
 enum { GPU_MAX_BUFFERS = 8 };
 
 typedef enum { GPU_STORAGE, GPU_UNIFORM } gpu_kind;
+typedef enum { GPU_COMPUTE, GPU_FRAGMENT } gpu_stage;
 
 /* The first device whose name contains the text, a real GPU before a CPU driver. */
 gpu *gpu_open(const char *name);

@@ -103,6 +103,17 @@ static void shade_block(const vpl *texels, int count, const vsgl *lights, const 
     }
 }
 
+void vsgl_shadow_maps(const scene *world, const vsgl *lights, int count, shadow_map *maps) {
+    progress line = progress_begin("shadow maps", count);
+    int i;
+    PARALLEL_FOR
+    for (i = 0; i < count; i++) {
+        shadow_map_render(&maps[i], world, lights[i].position, 0.01f + sqrtf(lights[i].variance));
+        progress_step(&line);
+    }
+    progress_end(&line);
+}
+
 void vsgl_shade(const vpl_map *map, const vsgl *lights, const shadow_map *maps, int light_count, vec3 *radiance,
                 const char *label) {
     const int texels = map->width * map->height, blocks = (texels + BLOCK - 1) / BLOCK;

@@ -5,6 +5,9 @@
 #include "shadow_map.h"
 #include "vpl.h"
 
+/* A shadow map at the mean of each light. Its own extent does not shade it. */
+void vsgl_shadow_maps(const scene *world, const vsgl *lights, int count, shadow_map *maps);
+
 /* Radiance that each texel reflects to where it is seen from: shading if the texels are the camera's and the lights an
    RSM's, and the importance of an RSM's texels for the camera if the lights are those of its G-buffer. Without maps
    nothing is in shadow. The label is that of the progress line. */

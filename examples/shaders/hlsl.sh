@@ -11,8 +11,11 @@ if grep -nE '\b(mod|atan|fma|matrix|mat[234]|lessThan|greaterThan|equal|not)\(|\
     exit 1
 fi
 
-# GLSL's built-in inputs are parameters of HLSL's main.
-compute='uint3 workgroup : SV_GroupID, uint3 thread : SV_DispatchThreadID, uint3 local_thread : SV_GroupThreadID, uint local_index : SV_GroupIndex'
+# What is built into GLSL are parameters of HLSL's main.
+case $1 in
+*.vert) parameters='uint vertex : SV_VertexID, out float4 position : SV_Position' ;;
+*) parameters='uint3 workgroup : SV_GroupID, uint3 thread : SV_DispatchThreadID, uint3 local_thread : SV_GroupThreadID, uint local_index : SV_GroupIndex' ;;
+esac
 
 sed -E '
 /^#version|^#extension|^precision |^    *memoryBarrierShared\(\);$/d
@@ -36,6 +39,8 @@ s/\bgl_LocalInvocationID\b/local_thread/g
 s/\bgl_LocalInvocationIndex\b/local_index/g
 s/\bgl_WorkGroupID\b/workgroup/g
 s/\bgl_FragCoord\b/position/g
+s/\bgl_VertexIndex\b/vertex/g
+s/\bgl_Position\b/position/g
 
 s/\bvec([234])\b/float\1/g
 s/\bivec([234])\b/int\1/g
@@ -48,7 +53,7 @@ s/\bfloatBitsToUint\(/asuint(/g
 s/\bfloatBitsToInt\(/asint(/g
 s/\b(uint|int)BitsToFloat\(/asfloat(/g
 s/\bbitCount\(/countbits(/g
-' "$1" | awk -v compute="$compute" '
+' "$1" | awk -v parameters="$parameters" '
 /^#define PIXEL / { pixel = $3; next }
-/^void main\(\) \{/ { $0 = pixel ? "void main(float4 position : SV_Position, out float4 " pixel " : SV_Target) {" : "void main(" compute ") {" }
+/^void main\(\) \{/ { $0 = pixel ? "void main(float4 position : SV_Position, out float4 " pixel " : SV_Target) {" : "void main(" parameters ") {" }
 { print }'

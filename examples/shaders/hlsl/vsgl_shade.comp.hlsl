@@ -1,0 +1,12 @@
+#include "sg.hlsl"
+#include "asg.hlsl"
+#include "vsgl_buffer.hlsl"
+#include "vsgl_shade.hlsl"
+
+RWStructuredBuffer<float4> picture : register(u4);
+
+[numthreads(8, 8, 1)]
+void main(uint3 workgroup : SV_GroupID, uint3 thread : SV_DispatchThreadID, uint3 local_thread : SV_GroupThreadID, uint local_index : SV_GroupIndex) {
+    int x = int(thread.x), y = int(thread.y);
+    if (x < width && y < height) picture[y * width + x] = float4(vsgl_shade(y * width + x), 1.0);
+}
