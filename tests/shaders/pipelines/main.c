@@ -37,7 +37,7 @@ typedef struct {
     void (*run)(gpu *device, const char *folder);
 } pipeline;
 
-static const pipeline pipelines[] = {{"shade", pipeline_shade}};
+static const pipeline pipelines[] = {{"shade", pipeline_shade}, {"filter", pipeline_filter}};
 
 static void usage(FILE *to) {
     fprintf(to, "usage: pipeline_tests [--device NAME] FOLDER [PIPELINE]\n"

@@ -13,5 +13,6 @@ void pipeline_check(const char *what, int holds);
 
 /* One a pipeline. They run in each language, whose shaders are in the folder: vsgl_shade.comp.spv and so on. */
 void pipeline_shade(gpu *device, const char *folder);
+void pipeline_filter(gpu *device, const char *folder);
 
 #endif
