@@ -1,5 +1,5 @@
-// bilateral.glsl - weights of filters and upsamplers that know the reflection lobes; the functions of bilateral.h, where
-// each is explained
+// bilateral.glsl - weights of filters and upsamplers that know the reflection lobes; the functions of bilateral.h,
+// where each is explained
 //
 // Conventions: a weight is in [0, 1], and 1 for equal pixels. Weights of lobes are q^beta of a similarity q. An
 // "exponent" is one of base 2, at most 0: the logarithm of all that a tap's weight has beside its lobes. Prepare a
@@ -16,7 +16,7 @@ struct bilateral_sg {
 struct bilateral_sg_part {
     vec3 axis;
     float sharpness, amplitude; // so that the mixture's product with itself integrates to 1
-    float tail;                 // exp(-2 sharpness)
+    float tail;                 // exp(-2 sharpness), 0 for a sharpness of 16 or more
 };
 
 // A pixel's lobe for Eq. 13.

@@ -1,5 +1,5 @@
-// lobe_filter.glsl - a cross bilateral filter of noisy glossy light: Eq. 1 of the paper, with Gaussians of the distance in
-// the image and in depth
+// lobe_filter.glsl - a cross bilateral filter of noisy glossy light: Eq. 1 of the paper, with Gaussians of the
+// distance in the image and in depth
 
 // Light, and 1 where something glossy is seen
 layout(std430, binding = 0) readonly buffer noisy_buffer { vec4 noisy[]; };
@@ -71,7 +71,8 @@ vec3 lobe_filter(int x, int y) {
             int there = v * width + u;
             vec4 colour = noisy[there];
             if (colour.w <= 0.0) continue;
-            float weight = filter_weight(i, there * PREPARED_SIZE, falloff * float((u - x) * (u - x) + (v - y) * (v - y)));
+            float kernel = falloff * float((u - x) * (u - x) + (v - y) * (v - y));
+            float weight = filter_weight(i, there * PREPARED_SIZE, kernel);
             sum += colour.xyz * weight;
             total += weight;
         }

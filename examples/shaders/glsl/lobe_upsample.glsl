@@ -1,4 +1,5 @@
-// lobe_upsample.glsl - joint bilateral upsampling, in space, of glossy light that one pixel of a cell has been shaded for
+// lobe_upsample.glsl - joint bilateral upsampling, in space, of glossy light for which one pixel of a
+// cell has been shaded
 
 // Light of the shaded pixels, and guides of all pixels
 layout(std430, binding = 0) readonly buffer colours_buffer { vec4 colours[]; };
@@ -23,7 +24,8 @@ float upsample_likeness(int i, int j) {
     float likeness = bilateral_depth_weight(guides[i].w, guides[j].w, depth_variance);
     if (method == WEIGHT_NORMALS) return likeness * bilateral_normal_weight(guides[i].xyz, guides[j].xyz, parameter);
     if (method == WEIGHT_SG)
-        return likeness * bilateral_sg_weight(guide_lobe(guides[i + 1], 0.0), guide_lobe(guides[j + 1], 0.0), parameter);
+        return likeness * bilateral_sg_weight(guide_lobe(guides[i + 1], 0.0), guide_lobe(guides[j + 1], 0.0),
+                                              parameter);
     return likeness * bilateral_asg_weight(guide_asg(guides[i + 6], guides[i + 7]),
                                            guide_asg(guides[j + 6], guides[j + 7]), parameter);
 }
