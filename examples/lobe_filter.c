@@ -7,13 +7,9 @@
  to 13); upsampling of 4 x 4 pixels in space and time with recomputation of what has no like neighbours (Figs. 14 to
  16). With --color and its like it filters buffers of a renderer of yours.
 */
-#include "../bilateral.h"
-#include "common/buffers.h"
 #include "common/fail.h"
 #include "common/file.h"
-#include "common/glossy.h"
-#include "common/hash.h"
-#include "common/image.h"
+#include "common/glossy_frame.h"
 #include "common/options.h"
 #include "common/output.h"
 #include "common/parallel.h"
@@ -24,300 +20,7 @@
 
 const char *const program_name = "lobe_filter";
 
-/* Of all filters: weights of distance in the image and in depth are the same. */
-enum { RADIUS = 8, TAPS = (2 * RADIUS + 1) * (2 * RADIUS + 1), SIDE_LIMIT = 16384 };
-static const float kernel_variance = 16, scene_depth_variance = 0.1f;
-
-/* ---- scenes: shapes, what they are made of, and the light that they are seen by ---- */
-
-typedef struct {
-    const char *name;
-    scene (*build)(void);
-    glossy (*look)(const surface *hit, int which);
-    int which;
-} subject;
-
-static glossy one_lobe(glossy_model model, float along, float across) {
-    glossy look;
-    memset(&look, 0, sizeof look);
-    look.count = 1;
-    look.lobes[0].model = model;
-    look.lobes[0].along = along;
-    look.lobes[0].across = across;
-    look.lobes[0].share = 1;
-    return look;
-}
-
-static int tile_of(const surface *hit) {
-    return ((int)floorf(hit->position.x / 0.5f) + (int)floorf(hit->position.z / 0.5f)) & 1;
-}
-
-/* Bands around the vertical axis of a sphere */
-static int band_of(const surface *hit, int bands) {
-    return (int)lobe_min(floorf((0.5f + 0.5f * hit->normal.y) * (float)bands), (float)bands - 1);
-}
-
-/* One model, a map of glossiness */
-static glossy look_tiles(const surface *hit, int which) {
-    static const float alphas[] = {0.05f, 0.12f, 0.35f};
-    float alpha;
-    (void)which;
-    if (hit->shape == GALLERY_FLOOR) {
-        const float x = hit->position.x / 0.5f, z = hit->position.z / 0.5f;
-        const float dx = x - floorf(x) - 0.5f, dz = z - floorf(z) - 0.5f;
-        alpha = !tile_of(hit) ? 0.04f : dx * dx + dz * dz < 0.09f ? 0.1f : 0.3f;
-    } else {
-        alpha = alphas[hit->shape - GALLERY_WALLS] * (band_of(hit, 8) & 1 ? 1 : 2);
-    }
-    return one_lobe(GLOSSY_GGX, alpha, alpha);
-}
-
-/* Two models side by side */
-static glossy look_models(const surface *hit, int which) {
-    static const float exponents[] = {1000, 200, 60}, alphas[] = {0.25f, 0.2f, 0.06f};
-    const int k = hit->shape - GALLERY_WALLS;
-    (void)which;
-    if (hit->shape == GALLERY_FLOOR)
-        return tile_of(hit) ? one_lobe(GLOSSY_BECKMANN, 0.3f, 0.3f) : one_lobe(GLOSSY_PHONG, 1500, 1500);
-    return hit->normal.x > 0.2f ? one_lobe(GLOSSY_BECKMANN, alphas[k], alphas[k])
-                                : one_lobe(GLOSSY_PHONG, exponents[k], exponents[k]);
-}
-
-/* Brushed metal: grooves along x and z by turns on the floor, around the axis on the balls */
-static glossy look_brushed(const surface *hit, int which) {
-    glossy look = one_lobe(GLOSSY_PHONG, 4000, 12);
-    (void)which;
-    if (hit->shape == GALLERY_FLOOR)
-        look.tangent = tile_of(hit) ? lobe_vector(1, 0, 0) : lobe_vector(0, 0, 1);
-    else
-        look.tangent = lobe_cross(lobe_vector(0, 1, 0), hit->normal);
-    return look;
-}
-
-static glossy three_lobes(float first, float second, float third, float a, float b) {
-    glossy look = one_lobe(GLOSSY_PHONG, first, first);
-    look.count = 3;
-    look.lobes[1] = one_lobe(GLOSSY_PHONG, second, second).lobes[0];
-    look.lobes[2] = one_lobe(GLOSSY_PHONG, third, third).lobes[0];
-    look.lobes[0].share = a;
-    look.lobes[1].share = b;
-    look.lobes[2].share = 1 - a - b;
-    return look;
-}
-
-/* Three lobes each: other lobes on the floor's tiles, other shares of the same ones on the balls */
-static glossy look_layers(const surface *hit, int which) {
-    (void)which;
-    if (hit->shape == GALLERY_FLOOR)
-        return tile_of(hit) ? three_lobes(4000, 1000, 300, 0.4f, 0.4f) : three_lobes(100, 25, 8, 0.4f, 0.4f);
-    return band_of(hit, 8) & 1 ? three_lobes(3000, 200, 12, 0.6f, 0.3f) : three_lobes(3000, 200, 12, 0.1f, 0.3f);
-}
-
-/* One of three exponents, or all three in bands */
-static glossy look_phong(const surface *hit, int which) {
-    static const float exponents[] = {10, 100, 1000};
-    const float e = exponents[which < 3 ? which : (band_of(hit, 3) + hit->shape) % 3];
-    return one_lobe(GLOSSY_PHONG, e, e);
-}
-
-static glossy look_mixture(const surface *hit, int which) {
-    static const float lobes[3][5] = {
-        {40, 10, 3, 0.4f, 0.4f}, {400, 100, 30, 0.4f, 0.4f}, {4000, 1000, 300, 0.4f, 0.4f}};
-    const float *l = lobes[which];
-    (void)hit;
-    return three_lobes(l[0], l[1], l[2], l[3], l[4]);
-}
-
-static glossy look_stretched(const surface *hit, int which) {
-    static const float exponents[3][2] = {{100, 5}, {1000, 10}, {5000, 100}};
-    glossy look = one_lobe(GLOSSY_PHONG, exponents[which][0], exponents[which][1]);
-    look.tangent = lobe_cross(lobe_vector(0, 1, 0), hit->normal);
-    return look;
-}
-
-static int is_glossy(const texel *t) {
-    return t->valid && (t->hit.shape == GALLERY_FLOOR || t->hit.shape >= GALLERY_WALLS);
-}
-
-static int is_checked(float u, float v, float edge) {
-    return ((int)floorf(u / edge) + (int)floorf(v / edge)) & 1;
-}
-
-/* Radiance of what reflections show: panels, a window, patterned walls. It does not depend on the direction. */
-static vec3 light_of(const surface *hit) {
-    const vec3 p = hit->position;
-    float shade;
-    switch (hit->shape) {
-    case GALLERY_FLOOR:
-        shade = tile_of(hit) ? 0.14f : 0.07f;
-        return lobe_vector(shade, 0.95f * shade, 0.9f * shade);
-    case GALLERY_CEILING:
-        return fabsf(fabsf(p.x) - 0.8f) < 0.3f && fabsf(p.z) < 1.5f ? lobe_vector(5, 4.7f, 4.2f)
-                                                                    : lobe_vector(0.15f, 0.15f, 0.15f);
-    case GALLERY_BACK:
-        return is_checked(p.x, p.y, 0.25f) ? lobe_vector(0.95f, 0.75f, 0.4f) : lobe_vector(0.06f, 0.07f, 0.1f);
-    case GALLERY_FRONT:
-        return is_checked(p.x, 0, 0.4f) ? lobe_vector(0.9f, 0.9f, 0.95f) : lobe_vector(0.12f, 0.1f, 0.1f);
-    case GALLERY_LEFT:
-        return is_checked(0, p.y, 0.3f) ? lobe_vector(1.3f, 0.25f, 0.15f) : lobe_vector(0.1f, 0.05f, 0.05f);
-    case GALLERY_RIGHT:
-        return fabsf(p.y - 1.3f) < 0.7f && fabsf(p.z) < 1.4f && is_checked(p.z + 0.1f, p.y, 0.7f)
-                   ? lobe_vector(1.5f, 2.2f, 3.5f)
-                   : lobe_vector(0.1f, 0.25f, 0.12f);
-    default:
-        shade = 0.15f + 0.12f * hit->normal.y;
-        return lobe_vector(shade, hit->shape & 1 ? shade : 0.6f * shade, hit->shape & 2 ? shade : 0.7f * shade);
-    }
-}
-
-/* ---- path tracing ---- */
-
-/* Four uniform numbers below 1: at random, or evenly spread over a pixel's draws (Roberts 2018) for the reference */
-static void draw(unsigned pixel, unsigned number, unsigned seed, int even, float u[4]) {
-    static const double steps[4] = {0.8566748838545029, 0.733891856627126, 0.6287067210378087, 0.5385972572236101};
-    unsigned k;
-    for (k = 0; k < 4; k++) {
-        double x = (double)hash_mix(hash_mix(pixel * 0x9E3779B1u + seed) + (even ? 0 : number * 0x85EBCA77u) +
-                                    k * 0xC2B2AE3Du);
-        x = x / 4294967296.0 + (even ? number * steps[k] : 0);
-        u[k] = (float)((int)((x - floor(x)) * 16777216)) / 16777216;
-    }
-}
-
-/* L_r / R: the mean radiance over the reflection lobe */
-static vec3 trace_pixel(const scene *world, const texel *t, const glossy *look, unsigned pixel, int samples,
-                        unsigned seed, int even) {
-    const vec3 from = lobe_add(t->hit.position, lobe_scale(t->hit.normal, 1e-4f));
-    vec3 sum = {0, 0, 0}, wi;
-    int taken = 0;
-    unsigned number;
-    for (number = 0; taken < samples && number < 64u * (unsigned)samples; number++) {
-        float u[4];
-        surface hit;
-        draw(pixel, number, seed, even, u);
-        if (!glossy_draw(look, t->hit.normal, t->view, u, &wi)) continue;
-        taken++;
-        if (scene_trace(world, from, wi, &hit)) sum = lobe_add(sum, light_of(&hit));
-    }
-    return lobe_scale(sum, 1 / (float)(taken ? taken : 1));
-}
-
-/* ---- what filters know of a pixel ---- */
-
-typedef struct {
-    int valid, parts_count;
-    float depth, alpha, half_sharpness; /* of a distribution of half vectors like it */
-    vec3 normal;
-    sg_lobe parts[GLOSSY_LOBES], lobe; /* Eq. 11, Eq. 12 */
-    asg_lobe stretched;                /* Eq. 13 */
-} guide;
-
-static sg_lobe with_share(sg_lobe g, float share) {
-    g = sg_normalize(g);
-    g.log_amplitude += lobe_log(lobe_max(share, 1e-6f));
-    return g;
-}
-
-static guide guide_of(const glossy *look, vec3 normal, vec3 view, float depth) {
-    guide g;
-    sg_lobe halves[GLOSSY_LOBES];
-    float along = 0, across = 0;
-    int k;
-    g.valid = 1;
-    g.parts_count = look->count;
-    g.depth = depth;
-    g.normal = normal;
-    for (k = 0; k < look->count; k++) {
-        const glossy_lobe *l = &look->lobes[k];
-        along = glossy_sharpness(l->model, l->along);
-        across = glossy_sharpness(l->model, l->across);
-        halves[k].axis = normal;
-        halves[k].sharpness = sqrtf(along * across);
-        halves[k].log_amplitude = 0;
-        g.parts[k] = with_share(sg_reflection_lobe(normal, view, halves[k].sharpness), l->share);
-        halves[k] = with_share(halves[k], l->share);
-    }
-    if (look->count > 1) {
-        along = across = bilateral_merge(halves, look->count).sharpness;
-        g.lobe = bilateral_merge(g.parts, look->count);
-    } else {
-        g.lobe = g.parts[0];
-    }
-    g.half_sharpness = sqrtf(along * across);
-    g.alpha = sqrtf(2 / g.half_sharpness);
-    if (along < across || along > across) {
-        g.stretched = asg_reflection_lobe_aniso(normal, look->tangent, view, 0.5f * along, 0.5f * across);
-        g.lobe = g.parts[0] = sg_normalize(asg_isotropic(g.stretched));
-    } else {
-        g.stretched = asg_reflection_lobe(normal, view, 0.5f * along);
-    }
-    return g;
-}
-
-/* ---- a frame of a scene ---- */
-
-typedef struct {
-    scene world;
-    buffer seen;
-    glossy *looks;
-    guide *guides;
-    int width, height;
-} frame;
-
-static frame frame_of(const scene *world, const subject *what, int width, int height) {
-    frame f;
-    int i;
-    f.world = *world;
-    f.width = width;
-    f.height = height;
-    f.seen = buffer_camera(world, width, height);
-    f.looks = (glossy *)allocate("images", (size_t)width * (size_t)height, sizeof *f.looks);
-    f.guides = (guide *)allocate("images", (size_t)width * (size_t)height, sizeof *f.guides);
-    for (i = 0; i < width * height; i++) {
-        const texel *t = &f.seen.texels[i];
-        vec3 unused;
-        if (!is_glossy(t)) continue;
-        f.looks[i] = what->look(&t->hit, what->which);
-        if (lobe_dot(f.looks[i].tangent, f.looks[i].tangent) > 0)
-            f.looks[i].tangent = vec3_normalize(f.looks[i].tangent);
-        else
-            lobe_frame(t->hit.normal, &f.looks[i].tangent, &unused);
-        f.guides[i] = guide_of(&f.looks[i], t->hit.normal, t->view, t->hit.distance);
-    }
-    return f;
-}
-
-static void frame_free(frame *f) {
-    buffer_free(&f->seen);
-    free(f->looks);
-    free(f->guides);
-}
-
-static vec3 shade_pixel(const frame *f, int i, int samples, unsigned seed, int even) {
-    const vec3 none = {0, 0, 0};
-    if (f->guides[i].valid)
-        return trace_pixel(&f->world, &f->seen.texels[i], &f->looks[i], (unsigned)i, samples, seed, even);
-    return f->seen.texels[i].valid ? light_of(&f->seen.texels[i].hit) : none;
-}
-
-static image shade_frame(const frame *f, int samples, unsigned seed, int even, const char *label) {
-    image result = image_create(f->width, f->height);
-    progress line = progress_begin(label, f->height);
-    int row;
-    PARALLEL_FOR
-    for (row = 0; row < f->height; row++) {
-        int i;
-        for (i = row * f->width; i < (row + 1) * f->width; i++)
-            result.pixels[i] = shade_pixel(f, i, samples, seed, even);
-        progress_step(&line);
-    }
-    progress_end(&line);
-    return result;
-}
-
-/* ---- filters: guides as planes with a border, so that the loops over them become vector code ---- */
-
-typedef enum { UNFILTERED, NORMAL, BANDLIMIT, ALPHA_GUIDE, EQ12, EQ11, EQ13, METHODS } method;
+enum { SIDE_LIMIT = 16384 };
 
 typedef struct {
     const char *name, *parameter;
@@ -325,7 +28,7 @@ typedef struct {
     float low[2], high[2];
 } method_data;
 
-static const method_data methods[METHODS] = {
+static const method_data methods[FILTER_METHODS] = {
     {"unfiltered", "", 0, {0, 0}, {0, 0}},
     {"normals, Eq. 4", "variance", 1, {-20, 0}, {2, 0}},
     {"normals, bandlimit", "variance, width", 2, {-20, 0}, {2, 12}},
@@ -334,283 +37,6 @@ static const method_data methods[METHODS] = {
     {"lobes, Eq. 11", "beta", 1, {-6, 0}, {10, 0}},
     {"lobes, Eq. 13", "beta", 1, {-6, 0}, {10, 0}},
 };
-
-/* Planes. Guides of one method at a time. */
-enum {
-    RED,
-    GREEN,
-    BLUE,
-    VALID,
-    DEPTH,
-    NORMAL_X,
-    NORMAL_Y,
-    NORMAL_Z,
-    ALPHA,
-    LIMIT,
-    AXIS_X = NORMAL_X,
-    AXIS_Y,
-    AXIS_Z,
-    WIDTH,
-    PART = NORMAL_X,
-    PART_PLANES = 6,
-    STRETCHED = NORMAL_X,
-    PLANES = PART + GLOSSY_LOBES * PART_PLANES
-};
-
-typedef struct {
-    int width, height, stride;
-    int parts;                     /* most lobes of a pixel */
-    float *memory, *plane[PLANES]; /* at the first pixel: the border is before it */
-} planes;
-
-static planes planes_create(int width, int height, int parts) {
-    planes p;
-    size_t size;
-    int k;
-    p.width = width;
-    p.height = height;
-    p.stride = width + 2 * RADIUS;
-    p.parts = parts;
-    size = (size_t)p.stride * (size_t)(height + 2 * RADIUS);
-    p.memory = (float *)allocate("images", size, PLANES * sizeof *p.memory);
-    for (k = 0; k < PLANES; k++) p.plane[k] = p.memory + (size_t)k * size + (size_t)RADIUS * (size_t)(p.stride + 1);
-    return p;
-}
-
-static void put_vector(const planes *p, int first, ptrdiff_t at, vec3 v) {
-    p->plane[first][at] = v.x;
-    p->plane[first + 1][at] = v.y;
-    p->plane[first + 2][at] = v.z;
-}
-
-static inline vec3 vector_at(const planes *p, int first, ptrdiff_t at) {
-    return lobe_vector(p->plane[first][at], p->plane[first + 1][at], p->plane[first + 2][at]);
-}
-
-static void put_part(const planes *p, int k, ptrdiff_t at, const bilateral_sg_part *part) {
-    put_vector(p, PART + k * PART_PLANES, at, part->axis);
-    p->plane[PART + k * PART_PLANES + 3][at] = part->sharpness;
-    p->plane[PART + k * PART_PLANES + 4][at] = part->amplitude;
-    p->plane[PART + k * PART_PLANES + 5][at] = part->tail;
-}
-
-static void put_stretched(const planes *p, ptrdiff_t at, const bilateral_asg *a) {
-    put_vector(p, STRETCHED, at, a->x);
-    put_vector(p, STRETCHED + 3, at, a->y);
-    put_vector(p, STRETCHED + 6, at, a->z);
-    p->plane[STRETCHED + 9][at] = a->sharpness_x;
-    p->plane[STRETCHED + 10][at] = a->sharpness_y;
-    p->plane[STRETCHED + 11][at] = a->own_exponent;
-    p->plane[STRETCHED + 12][at] = a->own_scale;
-}
-
-static inline sg_lobe blank_lobe(void) {
-    sg_lobe g;
-    g.axis = lobe_vector(0, 0, 1);
-    g.sharpness = 1;
-    g.log_amplitude = 0;
-    return g;
-}
-
-/* Every plane gets numbers that the loops can take, outside of what is valid too */
-static void put_guide(const planes *p, ptrdiff_t at, const guide *g, method m, const float *parameter) {
-    bilateral_sg_part parts[GLOSSY_LOBES];
-    bilateral_sg narrow;
-    bilateral_asg stretched;
-    int k;
-    switch (m) {
-    case NORMAL:
-    case BANDLIMIT:
-    case ALPHA_GUIDE:
-        put_vector(p, NORMAL_X, at, lobe_scale(g->normal, bilateral_scale(parameter[0])));
-        p->plane[ALPHA][at] = m == ALPHA_GUIDE ? g->alpha * bilateral_scale(parameter[1]) : 0;
-        /* log2 of a Gaussian in squared pixels, whose deviation is parameter / sqrt(sharpness) */
-        p->plane[LIMIT][at] =
-            m == BANDLIMIT ? 0.5f * LOBE_LOG2E * g->half_sharpness / (parameter[1] * parameter[1]) : 0;
-        break;
-    case EQ12:
-        narrow = bilateral_sg_prepare(g->valid ? g->lobe : blank_lobe(), parameter[0]);
-        put_vector(p, AXIS_X, at, narrow.axis);
-        p->plane[WIDTH][at] = narrow.width;
-        break;
-    case EQ11:
-        for (k = 0; k < GLOSSY_LOBES; k++) { /* missing ones are empty */
-            sg_lobe blank = blank_lobe();
-            bilateral_sg_mixture_prepare(&blank, 1, &parts[k]);
-            parts[k].amplitude = 0;
-        }
-        if (g->valid) bilateral_sg_mixture_prepare(g->parts, g->parts_count, parts);
-        for (k = 0; k < GLOSSY_LOBES; k++) put_part(p, k, at, &parts[k]);
-        break;
-    case EQ13:
-        stretched = bilateral_asg_prepare(g->stretched);
-        put_stretched(p, at, &stretched);
-        break;
-    case UNFILTERED:
-    case METHODS:
-        break;
-    }
-}
-
-static void fill_row(const planes *p, const guide *guides, method m, const float *parameter, float depth_scale,
-                     int row) {
-    guide outside;
-    int column;
-    memset(&outside, 0, sizeof outside);
-    lobe_frame(lobe_vector(0, 0, 1), &outside.stretched.x, &outside.stretched.y);
-    outside.stretched.z = lobe_vector(0, 0, 1);
-    outside.stretched.sharpness_x = outside.stretched.sharpness_y = 1;
-    for (column = -RADIUS; column < p->width + RADIUS; column++) {
-        const ptrdiff_t at = (ptrdiff_t)row * p->stride + column;
-        const int inside = row >= 0 && row < p->height && column >= 0 && column < p->width;
-        const guide *g = inside ? &guides[(ptrdiff_t)row * p->width + column] : &outside;
-        g = g->valid ? g : &outside;
-        p->plane[VALID][at] = g->valid ? 1 : 0;
-        p->plane[DEPTH][at] = g->depth * depth_scale;
-        put_guide(p, at, g, m, parameter);
-    }
-}
-
-static void fill_planes(const planes *p, const guide *guides, method m, const float *parameter, float depth_variance) {
-    const float depth_scale = bilateral_scale(depth_variance);
-    int row;
-    PARALLEL_FOR
-    for (row = -RADIUS; row < p->height + RADIUS; row++) fill_row(p, guides, m, parameter, depth_scale, row);
-}
-
-static void fill_colours(planes *p, const image *noisy) {
-    int row, column;
-    for (row = 0; row < p->height; row++) {
-        for (column = 0; column < p->width; column++)
-            put_vector(p, RED, (ptrdiff_t)row * p->stride + column, noisy->pixels[row * p->width + column]);
-    }
-}
-
-/* Weights of the pixels from i on with those from j on; exponent: log2 of the kernel at their distance, whose square is
-   given too */
-typedef struct {
-    ptrdiff_t i, j;
-    int count;
-    float exponent, squared;
-} tap_row;
-
-static inline float depth_exponent(const planes *p, const tap_row *t, int x) {
-    return t->exponent + bilateral_depth_exponent(p->plane[DEPTH][t->i + x], p->plane[DEPTH][t->j + x]);
-}
-
-enum { BLOCK = 256 };
-
-static void weigh_normals(const planes *all, const tap_row *row, float *restrict weight) {
-    const planes p = *all;
-    const tap_row t = *row;
-    int x;
-    for (x = 0; x < t.count; x++)
-        weight[x] = bilateral_normal_tap(depth_exponent(&p, &t, x), vector_at(&p, NORMAL_X, t.i + x),
-                                         vector_at(&p, NORMAL_X, t.j + x));
-}
-
-static void weigh_normals_near(const planes *all, const tap_row *row, float *restrict weight) {
-    const planes p = *all;
-    const tap_row t = *row;
-    int x;
-    for (x = 0; x < t.count; x++)
-        weight[x] = bilateral_normal_tap(depth_exponent(&p, &t, x) - t.squared * p.plane[LIMIT][t.i + x],
-                                         vector_at(&p, NORMAL_X, t.i + x), vector_at(&p, NORMAL_X, t.j + x));
-}
-
-static void weigh_normals_and_alpha(const planes *all, const tap_row *row, float *restrict weight) {
-    const planes p = *all;
-    const tap_row t = *row;
-    int x;
-    for (x = 0; x < t.count; x++) {
-        const float alike = bilateral_depth_exponent(p.plane[ALPHA][t.i + x], p.plane[ALPHA][t.j + x]);
-        weight[x] = bilateral_normal_tap(depth_exponent(&p, &t, x) + alike, vector_at(&p, NORMAL_X, t.i + x),
-                                         vector_at(&p, NORMAL_X, t.j + x));
-    }
-}
-
-/* By lobes the library runs along the row: log2 of the rest goes in, the weight comes out */
-static void weigh_planes(const planes *all, const tap_row *row, method m, float beta, float *restrict weight) {
-    const planes p = *all;
-    const tap_row t = *row;
-    const float *i[PLANES], *j[PLANES];
-    int x, k;
-    for (x = 0; x < t.count; x++) weight[x] = depth_exponent(&p, &t, x);
-    for (k = 0; k < PLANES; k++) {
-        i[k] = p.plane[k] + t.i;
-        j[k] = p.plane[k] + t.j;
-    }
-    if (m == EQ12)
-        bilateral_sg_taps(t.count, i + AXIS_X, j + AXIS_X, beta, weight);
-    else if (m == EQ11)
-        bilateral_sg_mixture_taps(t.count, p.parts, i + PART, j + PART, beta, weight);
-    else
-        bilateral_asg_taps(t.count, i + STRETCHED, j + STRETCHED, beta, weight);
-}
-
-static void weigh(const planes *p, const tap_row *row, method m, const float *parameter, float *weight) {
-    switch (m) {
-    case NORMAL:
-        weigh_normals(p, row, weight);
-        break;
-    case BANDLIMIT:
-        weigh_normals_near(p, row, weight);
-        break;
-    case ALPHA_GUIDE:
-        weigh_normals_and_alpha(p, row, weight);
-        break;
-    case EQ12:
-    case EQ11:
-    case EQ13:
-        weigh_planes(p, row, m, parameter[0], weight);
-        break;
-    case UNFILTERED:
-    case METHODS:
-        break;
-    }
-}
-
-/* Adds what a row of taps weighs */
-static void gather(const planes *all, const tap_row *row, const float *restrict weight, float *restrict red,
-                   float *restrict green, float *restrict blue, float *restrict total) {
-    const planes p = *all;
-    const tap_row t = *row;
-    int x;
-    for (x = 0; x < t.count; x++) {
-        const float w = weight[x] * p.plane[VALID][t.j + x];
-        red[x] += w * p.plane[RED][t.j + x];
-        green[x] += w * p.plane[GREEN][t.j + x];
-        blue[x] += w * p.plane[BLUE][t.j + x];
-        total[x] += w;
-    }
-}
-
-static void filter_row(const planes *p, method m, const float *parameter, int row, image *result) {
-    int first, x, y, k;
-    for (first = 0; first < p->width; first += BLOCK) {
-        float weight[BLOCK], sum[4][BLOCK];
-        tap_row t;
-        t.i = (ptrdiff_t)row * p->stride + first;
-        t.count = p->width - first < BLOCK ? p->width - first : BLOCK;
-        memset(sum, 0, sizeof sum);
-        for (y = -RADIUS; y <= RADIUS && m != UNFILTERED; y++) {
-            for (x = -RADIUS; x <= RADIUS; x++) {
-                t.j = t.i + (ptrdiff_t)y * p->stride + x;
-                t.squared = (float)(x * x + y * y);
-                t.exponent = -0.5f * LOBE_LOG2E / kernel_variance * t.squared;
-                weigh(p, &t, m, parameter, weight);
-                gather(p, &t, weight, sum[0], sum[1], sum[2], sum[3]);
-            }
-        }
-        for (k = 0; k < t.count; k++) {
-            vec3 *to = &result->pixels[row * p->width + first + k];
-            if (m != UNFILTERED && p->plane[VALID][t.i + k] > 0)
-                *to = lobe_scale(lobe_vector(sum[0][k], sum[1][k], sum[2][k]), 1 / sum[3][k]);
-            else
-                *to = vector_at(p, RED, t.i + k);
-        }
-    }
-}
 
 /* ---- measuring ---- */
 
@@ -640,14 +66,8 @@ typedef struct {
     frame f;
     image noisy, result;
     truth wanted;
-    planes room;
+    filter_planes *room;
 } study;
-
-static int most_parts(const frame *f) {
-    int i, most = 1;
-    for (i = 0; i < f->width * f->height; i++) most = f->guides[i].parts_count > most ? f->guides[i].parts_count : most;
-    return most;
-}
 
 static void study_begin(study *s, const subject *what, int width, int height, int samples, int reference,
                         unsigned seed) {
@@ -656,8 +76,8 @@ static void study_begin(study *s, const subject *what, int width, int height, in
     s->noisy = shade_frame(&s->f, samples, seed, 0, what->name);
     s->wanted = truth_of(&s->f, reference, seed, what->name);
     s->result = image_create(width, height);
-    s->room = planes_create(width, height, most_parts(&s->f));
-    fill_colours(&s->room, &s->noisy);
+    s->room = filter_planes_create(width, height, filter_most_parts(s->f.guides, width * height));
+    filter_fill_colours(s->room, &s->noisy);
 }
 
 static void study_end(study *s) {
@@ -665,14 +85,7 @@ static void study_end(study *s) {
     image_free(&s->noisy);
     truth_free(&s->wanted);
     image_free(&s->result);
-    free(s->room.memory);
-}
-
-static void run_filter(study *s, method m, const float *parameter) {
-    int row;
-    fill_planes(&s->room, s->f.guides, m, parameter, scene_depth_variance);
-    PARALLEL_FOR
-    for (row = 0; row < s->room.height; row++) filter_row(&s->room, m, parameter, row, &s->result);
+    filter_planes_free(s->room);
 }
 
 /* Mean square error over the channels of what is glossy */
@@ -689,13 +102,13 @@ static double error_of(const frame *f, const image *got, const truth *wanted) {
     return count ? sum / (double)count : 0;
 }
 
-static double try_filter(study *s, method m, const float *parameter) {
-    run_filter(s, m, parameter);
+static double try_filter(study *s, filter_method m, const float *parameter) {
+    filter_frame(s->room, s->f.guides, m, parameter, filter_depth_variance, &s->result);
     return error_of(&s->f, &s->result, &s->wanted);
 }
 
 /* The error at powers of two */
-static double try_powers(study *s, method m, float first, float second) {
+static double try_powers(study *s, filter_method m, float first, float second) {
     float parameter[2];
     parameter[0] = exp2f(first);
     parameter[1] = exp2f(second);
@@ -703,7 +116,7 @@ static double try_powers(study *s, method m, float first, float second) {
 }
 
 /* Golden section of one exponent about a value that is lower than those a step away */
-static void refine(study *s, method m, float at[2], int which, float step) {
+static void refine(study *s, filter_method m, float at[2], int which, float step) {
     const float golden = 0.618033989f;
     float low = at[which] - step, high = at[which] + step, x[2];
     double y[2];
@@ -729,7 +142,7 @@ static void refine(study *s, method m, float at[2], int which, float step) {
 }
 
 /* The parameters of least error: a sweep in steps, then golden sections */
-static double search(study *s, method m, float step, float parameter[2], progress *line) {
+static double search(study *s, filter_method m, float step, float parameter[2], progress *line) {
     const method_data *d = &methods[m];
     float at[2], best[2] = {0, 0};
     double least = 1e300;
@@ -755,19 +168,21 @@ static double search(study *s, method m, float step, float parameter[2], progres
 enum { ROUNDS = 5 };
 
 /* Milliseconds of each method on one core, turn by turn */
-static void time_methods(study *s, float parameters[METHODS][2], double ms[METHODS]) {
-    double times[METHODS][ROUNDS];
+static void time_methods(study *s, float parameters[FILTER_METHODS][2], double ms[FILTER_METHODS]) {
+    double times[FILTER_METHODS][ROUNDS];
     int round, m, row;
     for (round = 0; round < ROUNDS; round++) {
-        for (m = 0; m < METHODS; m++) {
+        for (m = 0; m < FILTER_METHODS; m++) {
             const double started = progress_clock();
-            for (row = -RADIUS; row < s->room.height + RADIUS; row++)
-                fill_row(&s->room, s->f.guides, (method)m, parameters[m], bilateral_scale(scene_depth_variance), row);
-            for (row = 0; row < s->room.height; row++) filter_row(&s->room, (method)m, parameters[m], row, &s->result);
+            for (row = -FILTER_RADIUS; row < s->f.height + FILTER_RADIUS; row++)
+                filter_fill_row(s->room, s->f.guides, (filter_method)m, parameters[m],
+                                bilateral_scale(filter_depth_variance), row);
+            for (row = 0; row < s->f.height; row++)
+                filter_row(s->room, (filter_method)m, parameters[m], row, &s->result);
             times[m][round] = progress_clock() - started;
         }
     }
-    for (m = 0; m < METHODS; m++) ms[m] = progress_median(times[m], ROUNDS);
+    for (m = 0; m < FILTER_METHODS; m++) ms[m] = progress_median(times[m], ROUNDS);
 }
 
 /* ---- files ---- */
@@ -871,7 +286,7 @@ static const subject materials[MATERIALS] = {{"Phong 10", scene_spheres, look_ph
                                              {"brushed 1000, 10", scene_spheres, look_stretched, 1},
                                              {"brushed 5000, 100", scene_spheres, look_stretched, 2},
                                              {"10, 100 and 1000", scene_spheres, look_phong, 3}};
-static const method group_methods[GROUPS] = {EQ12, EQ11, EQ13};
+static const filter_method group_methods[GROUPS] = {FILTER_EQ12, FILTER_EQ11, FILTER_EQ13};
 
 /* Errors of one method at the powers of two that its search covers, in half steps */
 typedef struct {
@@ -883,7 +298,7 @@ static float grid_parameter(const method_data *d, int i) {
     return exp2f(d->low[0] + 0.5f * (float)i);
 }
 
-static void find_curve(study *s, method m, int which, curve *c) {
+static void find_curve(study *s, filter_method m, int which, curve *c) {
     int i;
     c->count = (int)(2 * (methods[m].high[0] - methods[m].low[0])) + 1;
     for (i = 0; i < c->count; i++) {
@@ -909,7 +324,7 @@ static int best_of_group(const curve *c, int group) {
     return best;
 }
 
-static void write_curve(const settings *o, const char *rest, const char *parameter, method m, const curve *c,
+static void write_curve(const settings *o, const char *rest, const char *parameter, filter_method m, const curve *c,
                         const char *what) {
     char path[OUTPUT_NAME];
     file f;
@@ -933,7 +348,7 @@ static void write_curve(const settings *o, const char *rest, const char *paramet
 }
 
 /* One method's four columns: errors of a material at its own best parameter and at the group's, and the parameters */
-static void print_errors(method m, const curve *c, int group, int which) {
+static void print_errors(filter_method m, const curve *c, int group, int which) {
     const int own = best_of(c, which), shared = best_of_group(c, group);
     printf("%11.5f%9.3g%11.5f%9.3g", c->error[which][own], (double)grid_parameter(&methods[m], own),
            c->error[which][shared], (double)grid_parameter(&methods[m], shared));
@@ -945,10 +360,10 @@ static void compare_materials(const settings *o, float shared[2]) {
     progress line = progress_begin("materials", MATERIALS);
     int i, k, group;
     for (i = 0; i < MATERIALS; i++) {
-        const method m = i == ALL_THREE ? EQ12 : group_methods[i / SINGLES];
+        const filter_method m = i == ALL_THREE ? FILTER_EQ12 : group_methods[i / SINGLES];
         study s;
         study_begin(&s, &materials[i], o->size.width, o->size.height, o->samples, o->reference, (unsigned)o->seed);
-        find_curve(&s, NORMAL, i, normals);
+        find_curve(&s, FILTER_NORMAL, i, normals);
         find_curve(&s, m, i, lobes);
         study_end(&s);
         progress_step(&line);
@@ -964,7 +379,7 @@ static void compare_materials(const settings *o, float shared[2]) {
         double own[2] = {0, 0};
         for (k = group * SINGLES; k < (group + 1) * SINGLES; k++) {
             printf("%-22s", materials[k].name);
-            print_errors(NORMAL, normals, group, k);
+            print_errors(FILTER_NORMAL, normals, group, k);
             print_errors(group_methods[group], lobes, group, k);
             printf("\n");
             own[0] += normals->error[k][best_of(normals, k)] / SINGLES;
@@ -977,18 +392,19 @@ static void compare_materials(const settings *o, float shared[2]) {
                own[0], "", mean_of_group(normals, group, best[0]), "", own[1], "", mean_of_group(lobes, group, best[1]),
                "");
         if (group == 0) {
-            shared[0] = grid_parameter(&methods[NORMAL], best[0]);
-            shared[1] = grid_parameter(&methods[EQ12], best[1]);
+            shared[0] = grid_parameter(&methods[FILTER_NORMAL], best[0]);
+            shared[1] = grid_parameter(&methods[FILTER_EQ12], best[1]);
             printf("%-22s", "all three in one");
-            print_errors(NORMAL, normals, 0, ALL_THREE);
-            print_errors(EQ12, lobes, 0, ALL_THREE);
+            print_errors(FILTER_NORMAL, normals, 0, ALL_THREE);
+            print_errors(FILTER_EQ12, lobes, 0, ALL_THREE);
             printf("\n");
         }
     }
     printf("\n");
-    write_curve(o, "-normals.csv", "variance", NORMAL, normals,
+    write_curve(o, "-normals.csv", "variance", FILTER_NORMAL, normals,
                 "error of Eq. 4 over its variance (Figs. 10 to 13, left)");
-    write_curve(o, "-lobes.csv", "beta", EQ12, lobes, "error of Eq. 12, 11 and 13 over beta (Figs. 10 to 13, right)");
+    write_curve(o, "-lobes.csv", "beta", FILTER_EQ12, lobes,
+                "error of Eq. 12, 11 and 13 over beta (Figs. 10 to 13, right)");
     free(normals);
 }
 
@@ -998,31 +414,32 @@ enum { SCENES = 5, SHEET_COLUMNS = 5 };
 
 typedef struct {
     subject what;
-    method shown; /* in the picture, beside those of normals */
+    filter_method shown; /* in the picture, beside those of normals */
     const char *about;
 } shown_scene;
 
 static const shown_scene scenes[SCENES] = {
-    {{"tiles", scene_gallery, look_tiles, 0}, EQ12, "GGX of alpha .04, .1 and .3; bands on the balls"},
-    {{"models", scene_gallery, look_models, 0}, EQ12, "Phong beside Beckmann"},
-    {{"brushed", scene_gallery, look_brushed, 0}, EQ13, "brushed along x and z by turns, exponents 4000 and 12"},
-    {{"layers", scene_gallery, look_layers, 0}, EQ11, "three lobes each"},
-    {{"spheres", scene_spheres, look_phong, 3}, EQ12, "Phong of exponent 10, 100 and 1000 in bands"}};
+    {{"tiles", scene_gallery, look_tiles, 0}, FILTER_EQ12, "GGX of alpha .04, .1 and .3; bands on the balls"},
+    {{"models", scene_gallery, look_models, 0}, FILTER_EQ12, "Phong beside Beckmann"},
+    {{"brushed", scene_gallery, look_brushed, 0}, FILTER_EQ13, "brushed along x and z by turns, exponents 4000 and 12"},
+    {{"layers", scene_gallery, look_layers, 0}, FILTER_EQ11, "three lobes each"},
+    {{"spheres", scene_spheres, look_phong, 3}, FILTER_EQ12, "Phong of exponent 10, 100 and 1000 in bands"}};
 
 static void show_scene(const settings *o, const shown_scene *which, const float shared[2]) {
-    static const method columns[SHEET_COLUMNS - 1] = {UNFILTERED, NORMAL, BANDLIMIT, METHODS};
-    float best[METHODS][2];
-    double error[METHODS], ms[METHODS];
-    progress line = progress_begin(which->what.name, METHODS);
+    static const filter_method columns[SHEET_COLUMNS - 1] = {FILTER_UNFILTERED, FILTER_NORMAL, FILTER_BANDLIMIT,
+                                                             FILTER_METHODS};
+    float best[FILTER_METHODS][2];
+    double error[FILTER_METHODS], ms[FILTER_METHODS];
+    progress line = progress_begin(which->what.name, FILTER_METHODS);
     char rest[64];
     image sheet = image_create(SHEET_COLUMNS * o->size.width, 2 * o->size.height);
     study s;
     int m, k;
     study_begin(&s, &which->what, o->size.width, o->size.height, o->samples, o->reference, (unsigned)o->seed);
-    for (m = 0; m < METHODS; m++) {
-        error[m] = search(&s, (method)m, 2, best[m], &line);
+    for (m = 0; m < FILTER_METHODS; m++) {
+        error[m] = search(&s, (filter_method)m, 2, best[m], &line);
         for (k = 0; k < SHEET_COLUMNS - 1; k++) {
-            if (m == (int)(columns[k] == METHODS ? which->shown : columns[k]))
+            if (m == (int)(columns[k] == FILTER_METHODS ? which->shown : columns[k]))
                 paste_with_difference(&s.f, &sheet, &s.result, &s.wanted.mean, k);
         }
     }
@@ -1031,16 +448,17 @@ static void show_scene(const settings *o, const shown_scene *which, const float 
     time_methods(&s, best, ms);
     printf("\n%s: %s\n\n%-20s%10s%10s  %-18s%10s%14s%9s\n", which->what.name, which->about, "", "MSE", "best at", "",
            "at shared", "ms/megapixel", "ns/tap");
-    for (m = 0; m < METHODS; m++) {
+    for (m = 0; m < FILTER_METHODS; m++) {
         const method_data *d = &methods[m];
         const double megapixels = 1e-6 * o->size.width * o->size.height;
         char second[32] = "", at_shared[32] = "";
         if (d->parameters > 1) snprintf(second, sizeof second, ", %.3g", (double)best[m][1]);
         if (d->parameters == 1)
-            snprintf(at_shared, sizeof at_shared, "%.5f", try_filter(&s, (method)m, &shared[m == NORMAL ? 0 : 1]));
+            snprintf(at_shared, sizeof at_shared, "%.5f",
+                     try_filter(&s, (filter_method)m, &shared[m == FILTER_NORMAL ? 0 : 1]));
         if (d->parameters > 0)
             printf("%-20s%10.5f%10.3g%-20s%10s%14.0f%9.2f\n", d->name, error[m], (double)best[m][0], second, at_shared,
-                   ms[m] / megapixels, ms[m] / megapixels / TAPS);
+                   ms[m] / megapixels, ms[m] / megapixels / FILTER_TAPS);
         else
             printf("%-20s%10.5f\n", d->name, error[m]);
     }
@@ -1146,7 +564,7 @@ static void show_weights(const settings *o) {
 
 /* ---- upsampling: one pixel of 4 x 4 is shaded a frame ---- */
 
-enum { CELL = 4, FRAMES = CELL * CELL, MOST_SAMPLES = 16, MOVING_BALL = GALLERY_WALLS + 1 };
+enum { FRAMES = UPSAMPLE_CELL * UPSAMPLE_CELL, MOST_SAMPLES = 16, MOVING_BALL = GALLERY_WALLS + 1 };
 static const float upsampling_kappa = 100, normal_variance = 0.01f, lobe_beta = 20, least_weight = 0.25f;
 
 /* Which pixel of a cell is shaded in each frame: every one once */
@@ -1162,42 +580,8 @@ typedef struct {
     double filter_ms, shade_ms;
 } upsampler;
 
-typedef struct {
-    int width, height, column, row; /* and where in its cell each is */
-    vec3 *colours;
-} coarse;
-
-static float likeness(const upsampler *u, const guide *i, float depth, const guide *j) {
-    if (!j->valid) return 0;
-    return bilateral_depth_weight(depth, j->depth, scene_depth_variance) *
-           (u->lobes ? bilateral_sg_weight(i->lobe, j->lobe, u->parameter)
-                     : bilateral_normal_weight(i->normal, j->normal, u->parameter));
-}
-
-/* The value by this frame's samples around, and their total weight */
-static float upsample_pixel(const upsampler *u, const frame *f, const coarse *low, int x, int y, vec3 *colour) {
-    const float column = (float)(x - low->column) / CELL, row = (float)(y - low->row) / CELL;
-    const guide *g = &f->guides[y * f->width + x];
-    float footprint[4], similarity[4], weight[4], total;
-    int left, top, k;
-    bilateral_footprint(lobe_max(0, lobe_min(column, (float)(low->width - 1))),
-                        lobe_max(0, lobe_min(row, (float)(low->height - 1))), low->width, low->height, &left, &top,
-                        footprint);
-    for (k = 0; k < 4; k++) {
-        const int i = left + (k & 1), j = top + (k >> 1);
-        similarity[k] = 0;
-        if (footprint[k] > 0)
-            similarity[k] =
-                likeness(u, g, g->depth, &f->guides[(j * CELL + low->row) * f->width + i * CELL + low->column]);
-    }
-    total = bilateral_footprint_weights(footprint, similarity, weight);
-    *colour = lobe_vector(0, 0, 0);
-    for (k = 0; k < 4; k++) {
-        if (weight[k] > 0)
-            *colour =
-                lobe_add(*colour, lobe_scale(low->colours[(top + (k >> 1)) * low->width + left + (k & 1)], weight[k]));
-    }
-    return total;
+static filter_method method_of(const upsampler *u) {
+    return u->lobes ? FILTER_EQ12 : FILTER_NORMAL;
 }
 
 /* Where a point of the scene is in the image */
@@ -1223,8 +607,8 @@ static float recall_pixel(const upsampler *u, const frame *f, const frame *last,
     for (k = 0; k < 4; k++) {
         similarity[k] = 0;
         if (footprint[k] > 0.001f) /* not by rounding of the place */
-            similarity[k] =
-                likeness(u, &f->guides[index], distance, &last->guides[(top + (k >> 1)) * f->width + left + (k & 1)]);
+            similarity[k] = upsample_likeness(method_of(u), u->parameter, &f->guides[index], distance,
+                                              &last->guides[(top + (k >> 1)) * f->width + left + (k & 1)]);
     }
     total = bilateral_footprint_weights(footprint, similarity, weight);
     *colour = lobe_vector(0, 0, 0);
@@ -1239,9 +623,9 @@ static float recall_pixel(const upsampler *u, const frame *f, const frame *last,
 
 /* How much a frame's value counts at a pixel: that of pixels near a shaded one is better. */
 static float nearness(const coarse *low, int x, int y) {
-    int dx = (x - low->column + CELL) % CELL, dy = (y - low->row + CELL) % CELL;
-    dx = dx > CELL / 2 ? CELL - dx : dx;
-    dy = dy > CELL / 2 ? CELL - dy : dy;
+    int dx = (x - low->column + UPSAMPLE_CELL) % UPSAMPLE_CELL, dy = (y - low->row + UPSAMPLE_CELL) % UPSAMPLE_CELL;
+    dx = dx > UPSAMPLE_CELL / 2 ? UPSAMPLE_CELL - dx : dx;
+    dy = dy > UPSAMPLE_CELL / 2 ? UPSAMPLE_CELL - dy : dy;
     return lobe_exp(-(float)(dx * dx + dy * dy));
 }
 
@@ -1268,7 +652,7 @@ static void upsample(upsampler *u, const frame *f, const frame *last, vec3 motio
                 u->result.pixels[at] = shade_pixel(f, at, 1, seed, 1); /* a wall, as it is */
                 continue;
             }
-            total = upsample_pixel(u, f, low, x, row, &now);
+            total = upsample_pixel(method_of(u), u->parameter, f->guides, f->width, low, x, row, &now);
             if (u->temporal && last) recalled = recall_pixel(u, f, last, motion, at, &old);
             poor[at] = total + recalled < least_weight;
             total *= u->temporal ? nearness(low, x, row) : 1;
@@ -1304,8 +688,8 @@ static void shade_coarse(const frame *f, coarse *low, int number, int reference,
     for (row = 0; row < low->height; row++) {
         int x;
         for (x = 0; x < low->width; x++)
-            low->colours[row * low->width + x] =
-                shade_pixel(f, (row * CELL + low->row) * f->width + x * CELL + low->column, reference, seed, 1);
+            low->colours[row * low->width + x] = shade_pixel(
+                f, (row * UPSAMPLE_CELL + low->row) * f->width + x * UPSAMPLE_CELL + low->column, reference, seed, 1);
     }
 }
 
@@ -1316,7 +700,7 @@ static void find_upsampling_best(const upsampler *first, const frame *f, const c
     int k;
     printf("\nIn space alone, at the best parameter:");
     for (k = 0; k < 2; k++) {
-        const method_data *d = &methods[k ? EQ12 : NORMAL];
+        const method_data *d = &methods[k ? FILTER_EQ12 : FILTER_NORMAL];
         upsampler u = first[k];
         double least = 1e300;
         float power, best = 0;
@@ -1353,8 +737,8 @@ static void show_upsampling(const settings *o) {
     coarse low;
     truth wanted;
     int number, k, i;
-    low.width = width / CELL;
-    low.height = height / CELL;
+    low.width = width / UPSAMPLE_CELL;
+    low.height = height / UPSAMPLE_CELL;
     low.colours = (vec3 *)allocate("images", (size_t)(low.width * low.height), sizeof *low.colours);
     memset(u, 0, sizeof u);
     for (k = 0; k < UPSAMPLERS; k++) {
@@ -1479,7 +863,7 @@ static void read_guides(const settings *o, const raster *depth, const raster *no
                                               ((2 * (float)y + 1) / height - 1) * tangent, 1));
             look = one_lobe(GLOSSY_GGX, lobe_max(alpha, 1e-3f), lobe_max(alpha, 1e-3f));
             lobe_frame(n, &look.tangent, &unused);
-            guides[i] = guide_of(&look, n, view, z);
+            guides[i] = filter_guide_of(&look, n, view, z);
         }
     }
 }
@@ -1510,7 +894,7 @@ static void filter_buffers(const settings *o) {
     raster color, depth, normals, alphas;
     image noisy, result;
     guide *guides;
-    planes room;
+    filter_planes *room;
     progress line;
     int i, row;
     if (!o->color || !o->depth || !o->normal || !o->alpha)
@@ -1533,21 +917,21 @@ static void filter_buffers(const settings *o) {
     free(depth.values);
     free(normals.values);
     free(alphas.values);
-    room = planes_create(noisy.width, noisy.height, 1);
+    room = filter_planes_create(noisy.width, noisy.height, 1);
     result = image_create(noisy.width, noisy.height);
-    fill_colours(&room, &noisy);
-    fill_planes(&room, guides, EQ12, &o->beta, o->depth_variance);
+    filter_fill_colours(room, &noisy);
+    filter_fill_planes(room, guides, FILTER_EQ12, &o->beta, o->depth_variance);
     line = progress_begin("filter", noisy.height);
     PARALLEL_FOR
     for (row = 0; row < noisy.height; row++) {
-        filter_row(&room, EQ12, &o->beta, row, &result);
+        filter_row(room, FILTER_EQ12, &o->beta, row, &result);
         progress_step(&line);
     }
     progress_end(&line);
     write_raster(o->out, &result);
     write_picture(o->out, ".png", &result, "the same, as it looks");
     free(guides);
-    free(room.memory);
+    filter_planes_free(room);
     image_free(&noisy);
     image_free(&result);
 }
@@ -1594,7 +978,7 @@ int main(int argc, char **argv) {
     check_study_files(o.out);
     printf("%dx%d pixels, %d paths each, %d for the reference; filters of %dx%d pixels. Errors are mean squares over\n"
            "what is glossy; times are the medians of %d turns on one core, preparation included.\n",
-           o.size.width, o.size.height, o.samples, o.reference, 2 * RADIUS + 1, 2 * RADIUS + 1, ROUNDS);
+           o.size.width, o.size.height, o.samples, o.reference, 2 * FILTER_RADIUS + 1, 2 * FILTER_RADIUS + 1, ROUNDS);
     compare_similarities(&o);
     compare_materials(&o, shared);
     for (i = 0; i < SCENES; i++) show_scene(&o, &scenes[i], shared);

@@ -123,7 +123,7 @@ static void guides_match(void) {
     test_bound tap = bound_of("bilateral_normal_tap", "similarity");
     test_bound scale = bound_of("bilateral_scale", "ulp"), exponent = bound_of("bilateral_depth_exponent", "ulp");
     int k;
-    for (k = 0; k < 200000; k++) {
+    for (k = 0; k < test_draws(200000); k++) {
         double inputs[9], variance = (double)(float)log_uniform(depth.low, depth.high), e, d, wanted;
         float z[2], s;
         sg_lobe i, j;
@@ -208,7 +208,7 @@ static void sg_weights_match(void) {
     test_bound power = bound_of("bilateral_sg_tap_power", "similarity");
     test_bound row = bound_of("bilateral_sg_taps", "similarity");
     int k;
-    for (k = 0; k < 200000; k++) {
+    for (k = 0; k < test_draws(200000); k++) {
         int half = 1 + pick(15);
         double beta = k % 2 ? 2 * half : (double)(float)log_uniform(1e-3, 1e3), inputs[9], wanted, size;
         sg_lobe i = random_lobe(bound.low, bound.high), j = other_lobe(i, bound.low, bound.high, beta);
@@ -358,7 +358,7 @@ static void mixtures_match(void) {
     test_bound below = bound_of("bilateral_sg_mixture_tap", "below");
     test_bound wide_lobes = bound_of("bilateral_sg_mixture_tap", "wide");
     int k;
-    for (k = 0; k < 100000; k++) {
+    for (k = 0; 20 * k < test_draws(2000000); k++) { /* nine pairs of lobes each */
         double inputs[2 * MOST_LOBES + 1], log_q, unit_of_q, beta = (double)(float)log_uniform(1e-3, 1e3);
         double low = k % 3 ? bound.low : 16, high = k % 3 == 1 ? 20 : k % 3 == 2 ? bound.high : tap.high;
         vec axis = random_direction();
@@ -471,7 +471,7 @@ static void check_weight(const char *form, float w, float back, float own, doubl
 
 static void weights_are_weights(void) {
     int k;
-    for (k = 0; k < 200000; k++) {
+    for (k = 0; 25 * k < test_draws(5000000); k++) { /* a dozen pairs of lobes each */
         float beta = (float)log_uniform(1e-3, 1e3), vi = (float)log_uniform(1e-6, 1e6),
               vj = (float)log_uniform(1e-6, 1e6);
         double inputs[9], low = k % 4 ? 1e-8 : 1e-30, high = k % 4 ? 1e10 : 1e30;
@@ -536,7 +536,7 @@ static float any_float(double limit) {
 /* Any bits that are finite: unit axes, anything else */
 static void finite_everywhere(void) {
     int k;
-    for (k = 0; k < 300000; k++) {
+    for (k = 0; k < test_draws(300000); k++) {
         float beta = fabsf(any_float(1e3)), weights[4], inverse, footprint[4];
         sg_lobe i = random_lobe(1, 1), j = other_lobe(i, 1, 1, 1), merged, two[2];
         bilateral_sg a, b;
@@ -700,7 +700,7 @@ static void footprints_are_bilinear(void) {
     test_bound bound = bound_of("bilateral_footprint", "abs"), sum = bound_of("bilateral_footprint_weights", "sum");
     enum { WIDTH = 12, HEIGHT = 7 };
     int k, n;
-    for (k = 0; k < 200000; k++) {
+    for (k = 0; k < test_draws(200000); k++) {
         double inputs[2], wanted[4], total, fx, fy;
         float footprint[4], similar[4], weight[4], one[4] = {1, 1, 1, 1};
         int left, top;

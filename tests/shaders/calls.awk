@@ -167,6 +167,8 @@ function write_c(which, list, n, i, in_words, out_words, s, pass, before, result
             printf "    shader_in(%s, sizeof *%s);\n", name_of(s), name_of(s)
         else if (s ~ /^const .*\]$/)
             printf "    shader_in(%s, %d * sizeof *%s);\n", name_of(s), count, name_of(s)
+        else if (s ~ /\*/ && size[i])
+            results = results sprintf("    shader_out_some(%s, sizeof *%s, count, %d);\n", name_of(s), name_of(s), size[i])
         else if (s ~ /\*/)
             results = results sprintf("    shader_out(%s, sizeof *%s);\n", name_of(s), name_of(s))
         else if (s ~ /\]$/)

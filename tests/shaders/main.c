@@ -242,6 +242,11 @@ void shader_out(void *result, size_t size) {
     call.result_at += words;
 }
 
+void shader_out_some(void *elements, size_t size, int count, int most) {
+    shader_out(elements, size * (size_t)count);
+    call.result_at += (int)size / (int)sizeof *call.answer * (most - count);
+}
+
 /* ---- all questions ---- */
 
 static void forget(void) {

@@ -20,6 +20,7 @@ void shader_in_pyramid(const fis_pyramid *pdf);    /* its texels go into the poo
 void shader_in_planes(const fis_pyramid *pyramid); /* the same by planes of four channels */
 void shader_find(void);
 void shader_out(void *result, size_t size);
+void shader_out_some(void *elements, size_t size, int count, int most);
 
 /* Memory has other texels now. */
 void shader_renew(void);

@@ -38,7 +38,7 @@ typedef struct {
 } pipeline;
 
 static const pipeline pipelines[] = {
-    {"generate", pipeline_generate}, {"shade", pipeline_shade}, {"cull", pipeline_cull}};
+    {"generate", pipeline_generate}, {"shade", pipeline_shade}, {"cull", pipeline_cull}, {"filter", pipeline_filter}};
 
 static void usage(FILE *to) {
     fprintf(to, "usage: pipeline_tests [--device NAME] FOLDER [PIPELINE]\n"

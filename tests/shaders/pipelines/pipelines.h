@@ -15,5 +15,6 @@ void pipeline_check(const char *what, int holds);
 void pipeline_shade(gpu *device, const char *folder);
 void pipeline_generate(gpu *device, const char *folder);
 void pipeline_cull(gpu *device, const char *folder);
+void pipeline_filter(gpu *device, const char *folder);
 
 #endif

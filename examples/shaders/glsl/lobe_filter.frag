@@ -1,0 +1,14 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "sg.glsl"
+#include "asg.glsl"
+#include "bilateral.glsl"
+#include "lobe_guides.glsl"
+#include "lobe_parameters.glsl"
+#include "lobe_filter.glsl"
+
+layout(location = 0) out vec4 pixel;
+
+void main() {
+    pixel = vec4(lobe_filter(int(gl_FragCoord.x), int(gl_FragCoord.y)), 1.0);
+}

@@ -1,0 +1,11 @@
+// lobe_parameters.glsl - of lobe_prepare.comp and of lobe_filter.glsl
+
+layout(std140, binding = 2) uniform parameters {
+    int width;
+    int height;
+    int method;      // WEIGHT_NORMALS, ...
+    float parameter; // the variance of normals, or beta
+    float depth_variance;
+    int radius;
+    float kernel_variance; // in squared pixels
+};
