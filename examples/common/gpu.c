@@ -275,6 +275,12 @@ void gpu_buffer_write(gpu_buffer *b, const void *values) {
     buffer_release(&staging);
 }
 
+gpu_buffer *gpu_buffer_of(gpu *device, gpu_kind kind, const void *values, size_t size) {
+    gpu_buffer *b = gpu_buffer_create(device, kind, size);
+    gpu_buffer_write(b, values);
+    return b;
+}
+
 void gpu_buffer_read(gpu_buffer *b, void *values) {
     gpu_buffer staging = staging_of(b->device, b->size);
     copy(b->device, b->buffer, staging.buffer, b->size);
@@ -289,13 +295,17 @@ void gpu_buffer_free(gpu_buffer *b) {
 
 /* ---- programs ---- */
 
-static VkShaderModule module_of(gpu *g, const char *path) {
+static VkShaderModule module_of(gpu *g, const char *folder, const char *name, const char *stage) {
     VkShaderModuleCreateInfo info = {0};
     VkShaderModule module;
+    char path[1024];
     unsigned char *bytes;
     size_t count;
     uint32_t *words;
-    const char *wrong = file_read(path, (size_t)1 << 26, &bytes, &count);
+    const char *wrong;
+    if (snprintf(path, sizeof path, "%s/%s.%s.spv", folder, name, stage) >= (int)sizeof path)
+        give_up(folder, "too long a name");
+    wrong = file_read(path, (size_t)1 << 26, &bytes, &count);
     if (wrong) give_up(path, wrong);
     words = allocate(path, count, 1); /* aligned */
     memcpy(words, bytes, count);
@@ -364,9 +374,10 @@ static VkPipelineShaderStageCreateInfo stage_of(VkShaderStageFlagBits stage, VkS
     return info;
 }
 
-gpu_program *gpu_compute_create(gpu *device, const char *path, const gpu_kind *kinds, int count, int constant) {
+gpu_program *gpu_compute_create(gpu *device, const char *folder, const char *name, const gpu_kind *kinds, int count,
+                                int constant) {
     gpu_program *p = program_of(device, kinds, count, VK_SHADER_STAGE_COMPUTE_BIT);
-    VkShaderModule module = module_of(device, path);
+    VkShaderModule module = module_of(device, folder, name, "comp");
     VkSpecializationMapEntry entry = {0, 0, sizeof constant};
     VkSpecializationInfo special = {0};
     VkComputePipelineCreateInfo info = {0};
@@ -378,13 +389,12 @@ gpu_program *gpu_compute_create(gpu *device, const char *path, const gpu_kind *k
     info.stage = stage_of(VK_SHADER_STAGE_COMPUTE_BIT, module);
     info.stage.pSpecializationInfo = &special;
     info.layout = p->layout;
-    must(vkCreateComputePipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, &p->pipeline), path);
+    must(vkCreateComputePipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, &p->pipeline), name);
     vkDestroyShaderModule(device->device, module, NULL);
     return p;
 }
 
-gpu_program *gpu_fragment_create(gpu *device, const char *vertex_path, const char *path, const gpu_kind *kinds,
-                                 int count) {
+gpu_program *gpu_fragment_create(gpu *device, const char *folder, const char *name, const gpu_kind *kinds, int count) {
     gpu_program *p = program_of(device, kinds, count, VK_SHADER_STAGE_FRAGMENT_BIT);
     VkShaderModule modules[2];
     VkPipelineShaderStageCreateInfo stages[2];
@@ -399,8 +409,8 @@ gpu_program *gpu_fragment_create(gpu *device, const char *vertex_path, const cha
     VkPipelineDynamicStateCreateInfo dynamic = {0};
     VkPipelineRenderingCreateInfo rendering = {0};
     VkGraphicsPipelineCreateInfo info = {0};
-    modules[0] = module_of(device, vertex_path);
-    modules[1] = module_of(device, path);
+    modules[0] = module_of(device, folder, "fullscreen", "vert");
+    modules[1] = module_of(device, folder, name, "frag");
     stages[0] = stage_of(VK_SHADER_STAGE_VERTEX_BIT, modules[0]);
     stages[1] = stage_of(VK_SHADER_STAGE_FRAGMENT_BIT, modules[1]);
     vertices.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
@@ -437,7 +447,7 @@ gpu_program *gpu_fragment_create(gpu *device, const char *vertex_path, const cha
     info.pColorBlendState = &blend;
     info.pDynamicState = &dynamic;
     info.layout = p->layout;
-    must(vkCreateGraphicsPipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, &p->pipeline), path);
+    must(vkCreateGraphicsPipelines(device->device, VK_NULL_HANDLE, 1, &info, NULL, &p->pipeline), name);
     vkDestroyShaderModule(device->device, modules[0], NULL);
     vkDestroyShaderModule(device->device, modules[1], NULL);
     return p;

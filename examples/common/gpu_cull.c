@@ -1,17 +1,18 @@
 #include "gpu_cull.h"
 #include "fail.h"
-#include "output.h"
+#include "gpu_picture.h"
 #include <stdlib.h>
 
 /* One layout for all shaders, of which each takes what it needs */
-enum { PARAMETERS, SURFACES, LIGHTS, FIRSTS, VOLUMES, TILES, ENTRIES, PICTURE, BUFFERS };
+enum { PARAMETERS, SURFACES, LIGHTS, FIRSTS, VOLUMES, TILES, ENTRIES, BUFFERS };
 
 static const gpu_kind kinds[BUFFERS] = {GPU_UNIFORM, GPU_STORAGE, GPU_STORAGE, GPU_STORAGE,
-                                        GPU_STORAGE, GPU_STORAGE, GPU_STORAGE, GPU_STORAGE};
+                                        GPU_STORAGE, GPU_STORAGE, GPU_STORAGE};
 
 /* As in light_tiles.glsl */
 typedef struct {
-    float eye[4], right[4], up[4], forward[4], delta, extent;
+    vec4 eye, right, up, forward;
+    float delta, extent;
     int width, height, interleave, edge, columns, rows, light_count, most;
 } parameters;
 
@@ -19,50 +20,38 @@ struct gpu_cull {
     parameters p;
     int subsets;
     gpu_buffer *buffers[BUFFERS];
-    gpu_program *bound, *cull, *shade, *draw;
+    gpu_program *bound, *cull;
+    gpu_picture picture;
 };
-
-static void put(float to[4], vec3 v, float w) {
-    to[0] = v.x;
-    to[1] = v.y;
-    to[2] = v.z;
-    to[3] = w;
-}
-
-static gpu_buffer *buffer_with(gpu *device, gpu_kind kind, const void *values, size_t size) {
-    gpu_buffer *b = gpu_buffer_create(device, kind, size);
-    gpu_buffer_write(b, values);
-    return b;
-}
 
 static gpu_buffer *put_surfaces(gpu *device, const gpu_cull_settings *settings, const buffer *view) {
     const size_t count = (size_t)view->width * (size_t)view->height;
-    float *values = (float *)allocate("surfaces", count, 8 * sizeof *values);
+    vec4 *values = (vec4 *)allocate("surfaces", count, 2 * sizeof *values);
     gpu_buffer *b;
     size_t i;
     for (i = 0; i < count; i++) {
         const texel *t = &view->texels[i];
         if (!t->valid) continue;
-        put(values + 8 * i, t->hit.position, lobe_dot(settings->forward, lobe_sub(t->hit.position, settings->eye)));
-        put(values + 8 * i + 4, t->hit.normal, 0);
+        values[2 * i] = vec4_of(t->hit.position, lobe_dot(settings->forward, lobe_sub(t->hit.position, settings->eye)));
+        values[2 * i + 1] = vec4_of(t->hit.normal, 0);
     }
-    b = buffer_with(device, GPU_STORAGE, values, count * 8 * sizeof *values);
+    b = gpu_buffer_of(device, GPU_STORAGE, values, count * 2 * sizeof *values);
     free(values);
     return b;
 }
 
 static gpu_buffer *put_lights(gpu *device, const gpu_cull_light *lights, size_t count, size_t room) {
-    float *values = (float *)allocate("lights", room, 16 * sizeof *values);
+    vec4 *values = (vec4 *)allocate("lights", room, 4 * sizeof *values);
     gpu_buffer *b;
     size_t i;
     for (i = 0; i < count; i++) {
         const gpu_cull_light *l = &lights[i];
-        put(values + 16 * i, l->position, l->flux);
-        put(values + 16 * i + 4, l->normal, l->alpha);
-        put(values + 16 * i + 8, l->wi, l->xi);
-        put(values + 16 * i + 12, l->colour, l->glossy ? 1.0f : 0.0f);
+        values[4 * i] = vec4_of(l->position, l->flux);
+        values[4 * i + 1] = vec4_of(l->normal, l->alpha);
+        values[4 * i + 2] = vec4_of(l->wi, l->xi);
+        values[4 * i + 3] = vec4_of(l->colour, l->glossy ? 1.0f : 0.0f);
     }
-    b = buffer_with(device, GPU_STORAGE, values, room * 16 * sizeof *values);
+    b = gpu_buffer_of(device, GPU_STORAGE, values, room * 4 * sizeof *values);
     free(values);
     return b;
 }
@@ -73,10 +62,10 @@ static int parts(int whole, int part) {
 
 static parameters parameters_of(const gpu_cull_settings *settings, const buffer *view, int light_count) {
     parameters p;
-    put(p.eye, settings->eye, 0);
-    put(p.right, settings->right, 0);
-    put(p.up, settings->up, 0);
-    put(p.forward, settings->forward, 0);
+    p.eye = vec4_of(settings->eye, 0);
+    p.right = vec4_of(settings->right, 0);
+    p.up = vec4_of(settings->up, 0);
+    p.forward = vec4_of(settings->forward, 0);
     p.delta = settings->delta;
     p.extent = settings->extent;
     p.width = view->width;
@@ -90,37 +79,25 @@ static parameters parameters_of(const gpu_cull_settings *settings, const buffer 
     return p;
 }
 
-static gpu_program *compute_of(gpu *device, const char *folder, const char *name) {
-    char path[OUTPUT_NAME];
-    output_name(path, folder, name);
-    return gpu_compute_create(device, path, kinds, BUFFERS, 0);
-}
-
 gpu_cull *gpu_cull_create(gpu *device, const char *folder, const gpu_cull_settings *settings, const buffer *view,
                           const gpu_cull_light *lights, const int *firsts) {
     const int subsets = settings->interleave * settings->interleave, light_count = firsts[subsets];
-    const size_t pixels = (size_t)view->width * (size_t)view->height;
     const size_t room = light_count ? (size_t)light_count : 1; /* no buffer is empty */
     gpu_cull *c = (gpu_cull *)allocate("GPU", 1, sizeof *c);
-    char path[OUTPUT_NAME], vertex_path[OUTPUT_NAME];
     size_t tiles;
     c->p = parameters_of(settings, view, light_count);
     c->subsets = subsets;
     tiles = (size_t)gpu_cull_tiles(c);
-    c->bound = compute_of(device, folder, "/light_bound.comp.spv");
-    c->cull = compute_of(device, folder, "/light_cull.comp.spv");
-    c->shade = compute_of(device, folder, "/light_shade.comp.spv");
-    output_name(vertex_path, folder, "/fullscreen.vert.spv");
-    output_name(path, folder, "/light_shade.frag.spv");
-    c->draw = gpu_fragment_create(device, vertex_path, path, kinds, BUFFERS);
-    c->buffers[PARAMETERS] = buffer_with(device, GPU_UNIFORM, &c->p, sizeof c->p);
+    c->bound = gpu_compute_create(device, folder, "light_bound", kinds, BUFFERS, 0);
+    c->cull = gpu_compute_create(device, folder, "light_cull", kinds, BUFFERS, 0);
+    c->picture = gpu_picture_create(device, folder, "light_shade", kinds, BUFFERS, view->width, view->height);
+    c->buffers[PARAMETERS] = gpu_buffer_of(device, GPU_UNIFORM, &c->p, sizeof c->p);
     c->buffers[SURFACES] = put_surfaces(device, settings, view);
     c->buffers[LIGHTS] = put_lights(device, lights, (size_t)light_count, room);
-    c->buffers[FIRSTS] = buffer_with(device, GPU_STORAGE, firsts, ((size_t)subsets + 1) * sizeof *firsts);
+    c->buffers[FIRSTS] = gpu_buffer_of(device, GPU_STORAGE, firsts, ((size_t)subsets + 1) * sizeof *firsts);
     c->buffers[VOLUMES] = gpu_buffer_create(device, GPU_STORAGE, room * 12 * sizeof(float));
     c->buffers[TILES] = gpu_buffer_create(device, GPU_STORAGE, tiles * 2 * sizeof(unsigned));
     c->buffers[ENTRIES] = gpu_buffer_create(device, GPU_STORAGE, tiles * (size_t)settings->most * sizeof(unsigned));
-    c->buffers[PICTURE] = gpu_buffer_create(device, GPU_STORAGE, pixels * 4 * sizeof(float));
     return c;
 }
 
@@ -129,8 +106,7 @@ void gpu_cull_free(gpu_cull *c) {
     for (i = 0; i < BUFFERS; i++) gpu_buffer_free(c->buffers[i]);
     gpu_program_free(c->bound);
     gpu_program_free(c->cull);
-    gpu_program_free(c->shade);
-    gpu_program_free(c->draw);
+    gpu_picture_free(&c->picture);
     free(c);
 }
 
@@ -140,20 +116,7 @@ double gpu_cull_run(gpu_cull *c) {
 }
 
 double gpu_cull_shade(gpu_cull *c, gpu_stage stage, image *irradiance) {
-    const int pixels = c->p.width * c->p.height;
-    float *values = (float *)allocate("picture", (size_t)pixels, 4 * sizeof *values);
-    double ms;
-    int i;
-    if (stage == GPU_COMPUTE) {
-        ms = gpu_run(c->shade, c->buffers, parts(c->p.width, 8), parts(c->p.height, 8), 1);
-        gpu_buffer_read(c->buffers[PICTURE], values);
-    } else {
-        ms = gpu_draw(c->draw, c->buffers, c->p.width, c->p.height, values);
-    }
-    for (i = 0; i < pixels; i++)
-        irradiance->pixels[i] = lobe_vector(values[4 * i], values[4 * i + 1], values[4 * i + 2]);
-    free(values);
-    return ms;
+    return gpu_picture_run(&c->picture, stage, c->buffers, irradiance->pixels);
 }
 
 int gpu_cull_tiles(const gpu_cull *c) {

@@ -1,15 +1,12 @@
 #include "gpu_generate.h"
 #include "fail.h"
 #include "gpu_halve.h"
-#include "output.h"
+#include "gpu_picture.h"
+#include "gpu_surfaces.h"
 #include <stdlib.h>
 #include <string.h>
 
 enum { CHANNELS = 16, LIGHT = 20, GROUP = 64 }; /* floats of a texel's moments and of a light; of a workgroup */
-
-typedef struct {
-    float x, y, z, w;
-} vec4;
 
 typedef struct {
     vec4 eye, center;
@@ -31,48 +28,19 @@ struct gpu_generate {
     float *staged, *packed; /* a PDF's pyramid, whose level 0 is given; lights */
 };
 
-static vec4 join(vec3 v, float w) {
-    vec4 joined;
-    joined.x = v.x;
-    joined.y = v.y;
-    joined.z = v.z;
-    joined.w = w;
-    return joined;
-}
-
-static gpu_buffer *upload_surfaces(gpu *device, const vpl_map *map) {
-    const size_t count = (size_t)map->width * (size_t)map->height;
-    vec4 *surfaces = (vec4 *)allocate("surfaces", count, 4 * sizeof *surfaces);
-    gpu_buffer *b = gpu_buffer_create(device, GPU_STORAGE, count * 4 * sizeof *surfaces);
-    size_t i;
-    for (i = 0; i < count; i++) {
-        const vpl *t = &map->texels[i];
-        surfaces[4 * i] = join(t->position, t->alpha);
-        surfaces[4 * i + 1] = join(t->normal, 0);
-        surfaces[4 * i + 2] = join(t->diffuse, 0);
-        surfaces[4 * i + 3] = join(t->specular, 0);
-    }
-    gpu_buffer_write(b, surfaces);
-    free(surfaces);
-    return b;
-}
-
 gpu_generate *gpu_generate_create(gpu *device, const char *folder, const vpl_map *map, vec3 eye, int most) {
     static const gpu_kind moments_kinds[4] = {GPU_STORAGE, GPU_STORAGE, GPU_STORAGE, GPU_UNIFORM};
     gpu_generate *g = (gpu_generate *)allocate("GPU", 1, sizeof *g);
     const size_t texels = fis_pyramid_size(map->width, map->height, 1);
-    char path[OUTPUT_NAME];
-    output_name(path, folder, "/vsgl_moments.comp.spv");
-    g->find_moments = gpu_compute_create(device, path, moments_kinds, 4, 0);
-    output_name(path, folder, "/vsgl_generate.comp.spv");
-    g->generate = gpu_compute_create(device, path, moments_kinds, 4, 0);
+    g->find_moments = gpu_compute_create(device, folder, "vsgl_moments", moments_kinds, 4, 0);
+    g->generate = gpu_compute_create(device, folder, "vsgl_generate", moments_kinds, 4, 0);
     g->halve = gpu_halve_create(device, folder);
     g->width = map->width;
     g->height = map->height;
     g->most = most;
     g->eye = eye;
     g->center = map->center;
-    g->surfaces = upload_surfaces(device, map);
+    g->surfaces = gpu_surfaces(device, map);
     g->moments = gpu_buffer_create(device, GPU_STORAGE, texels * CHANNELS * sizeof(float));
     g->pdf = gpu_buffer_create(device, GPU_STORAGE, texels * sizeof(float));
     g->lights = gpu_buffer_create(device, GPU_STORAGE, (size_t)most * LIGHT * sizeof(float));
@@ -103,8 +71,8 @@ static double find_moments(gpu_generate *g) {
     gpu_buffer *buffers[4];
     moments_parameters p;
     memset(&p, 0, sizeof p);
-    p.eye = join(g->eye, 0);
-    p.center = join(g->center, 0);
+    p.eye = vec4_of(g->eye, 0);
+    p.center = vec4_of(g->center, 0);
     p.texel_count = g->width * g->height;
     gpu_buffer_write(g->moments_parameters, &p);
     buffers[0] = g->surfaces;
@@ -118,7 +86,7 @@ static double generate_lights(gpu_generate *g, method how, float k, unsigned see
     gpu_buffer *buffers[4];
     generate_parameters p;
     memset(&p, 0, sizeof p);
-    p.center = join(g->center, 0);
+    p.center = vec4_of(g->center, 0);
     p.width = g->width;
     p.height = g->height;
     p.light_count = count;

@@ -1,7 +1,6 @@
 #include "gpu_halve.h"
 #include "../../fis.h"
 #include "fail.h"
-#include "output.h"
 #include <stdlib.h>
 
 enum { TEXELS, PARAMETERS, BUFFERS, GROUP = 64 };
@@ -20,12 +19,8 @@ struct gpu_halve {
 
 gpu_halve *gpu_halve_create(gpu *device, const char *folder) {
     gpu_halve *h = (gpu_halve *)allocate("GPU", 1, sizeof *h);
-    char path[OUTPUT_NAME], vertex_path[OUTPUT_NAME];
-    output_name(path, folder, "/fis_halve.comp.spv");
-    h->compute = gpu_compute_create(device, path, kinds, BUFFERS, 0);
-    output_name(vertex_path, folder, "/fullscreen.vert.spv");
-    output_name(path, folder, "/fis_halve.frag.spv");
-    h->fragment = gpu_fragment_create(device, vertex_path, path, kinds, BUFFERS);
+    h->compute = gpu_compute_create(device, folder, "fis_halve", kinds, BUFFERS, 0);
+    h->fragment = gpu_fragment_create(device, folder, "fis_halve", kinds, BUFFERS);
     h->parameters = gpu_buffer_create(device, GPU_UNIFORM, sizeof(halve_parameters));
     return h;
 }

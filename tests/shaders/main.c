@@ -267,15 +267,18 @@ static void ask_in(function *f, int which, int in, const unsigned *questions, un
     gpu_buffer *buffers[3];
     int i;
     if (!f->programs[in]) {
-        char path[1024];
-        snprintf(path, sizeof path, "%s/%s/calls.%d.comp.spv", folder, languages[in], which);
-        f->programs[in] = gpu_compute_create(device, path, kinds, 3, 0);
+        char path[1024], name[32];
+        snprintf(path, sizeof path, "%s/%s", folder, languages[in]);
+        snprintf(name, sizeof name, "calls.%d", which);
+        f->programs[in] = gpu_compute_create(device, path, name, kinds, 3, 0);
     }
-    buffers[0] = gpu_buffer_create(device, GPU_STORAGE, (size_t)groups * 64 * (size_t)f->in_words * sizeof *questions);
+    buffers[0] =
+        gpu_buffer_of(device, GPU_STORAGE, questions, (size_t)groups * 64 * (size_t)f->in_words * sizeof *questions);
     buffers[1] = gpu_buffer_create(device, GPU_STORAGE, (size_t)groups * 64 * (size_t)f->out_words * sizeof *answers);
-    buffers[2] = gpu_buffer_create(device, GPU_STORAGE, (size_t)(pool.size ? pool.size : 1) * sizeof *pool.texels);
-    gpu_buffer_write(buffers[0], questions);
-    gpu_buffer_write(buffers[2], pool.size ? pool.texels : &none);
+    if (pool.size)
+        buffers[2] = gpu_buffer_of(device, GPU_STORAGE, pool.texels, (size_t)pool.size * sizeof *pool.texels);
+    else
+        buffers[2] = gpu_buffer_of(device, GPU_STORAGE, &none, sizeof none);
     gpu_run(f->programs[in], buffers, groups, 1, 1);
     gpu_buffer_read(buffers[1], answers);
     for (i = 0; i < 3; i++) gpu_buffer_free(buffers[i]);

@@ -77,11 +77,10 @@ static double worst_of(gpu *device, const char *folder, const char *language, in
     double worst = 0;
     int i;
     for (i = 0; i < COUNT; i++) draw(&rng, function, i, numbers + 2 * i);
-    snprintf(path, sizeof path, "%s/%s/precision.comp.spv", folder, language);
-    program = gpu_compute_create(device, path, kinds, 2, function);
-    buffers[0] = gpu_buffer_create(device, GPU_STORAGE, 2 * COUNT * sizeof *numbers);
+    snprintf(path, sizeof path, "%s/%s", folder, language);
+    program = gpu_compute_create(device, path, "precision", kinds, 2, function);
+    buffers[0] = gpu_buffer_of(device, GPU_STORAGE, numbers, 2 * COUNT * sizeof *numbers);
     buffers[1] = gpu_buffer_create(device, GPU_STORAGE, COUNT * sizeof *results);
-    gpu_buffer_write(buffers[0], numbers);
     gpu_run(program, buffers, GROUPS, 1, 1);
     gpu_buffer_read(buffers[1], results);
     for (i = 0; i < COUNT; i++) {
