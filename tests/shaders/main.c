@@ -19,6 +19,7 @@ typedef struct {
     int count, answered, room; /* questions of the running test */
     unsigned *in, *out;
     int *slots, slot_count;   /* hash table of question + 1 */
+    int next;                 /* question expected: a test mostly asks in the order in which it did */
     int asked;                /* by this test */
     long total;               /* answered in all tests */
     gpu_program *programs[2]; /* in each language */
@@ -77,11 +78,14 @@ static unsigned hash_of(const unsigned *words, int count) {
     return hash;
 }
 
+static int is_question(const function *f, int question, const unsigned *words) {
+    size_t count = (size_t)f->in_words;
+    return !memcmp(f->in + (size_t)question * count, words, count * sizeof *words);
+}
+
 static int *slot_of(function *f, const unsigned *words) {
     unsigned mask = (unsigned)f->slot_count - 1, at = hash_of(words, f->in_words) & mask;
-    while (f->slots[at] &&
-           memcmp(f->in + (size_t)(f->slots[at] - 1) * (size_t)f->in_words, words, (size_t)f->in_words * sizeof *words))
-        at = (at + 1) & mask;
+    while (f->slots[at] && !is_question(f, f->slots[at] - 1, words)) at = (at + 1) & mask;
     return &f->slots[at];
 }
 
@@ -104,19 +108,25 @@ static void make_room(function *f) {
 
 void shader_find(void) {
     function *f = call.f;
-    int *slot;
+    int question;
     if (call.unfit) return;
     if (call.word_count != f->in_words) give_up(f->name, "takes other words in the shader than in the header");
-    if (f->count >= f->room) make_room(f);
-    slot = slot_of(f, call.words);
     f->asked = 1;
-    if (!*slot) {
-        if (f->count >= MOST_QUESTIONS) return;
-        memcpy(f->in + (size_t)f->count * (size_t)f->in_words, call.words, (size_t)f->in_words * sizeof *call.words);
-        *slot = ++f->count;
-    } else if (*slot <= f->answered) {
-        call.answer = f->out + (size_t)(*slot - 1) * (size_t)f->out_words;
+    question = f->next;
+    if (question >= f->count || !is_question(f, question, call.words)) {
+        int *slot;
+        if (f->count >= f->room) make_room(f);
+        slot = slot_of(f, call.words);
+        if (!*slot) {
+            if (f->count >= MOST_QUESTIONS) return;
+            memcpy(f->in + (size_t)f->count * (size_t)f->in_words, call.words,
+                   (size_t)f->in_words * sizeof *call.words);
+            *slot = ++f->count;
+        }
+        question = *slot - 1;
     }
+    f->next = question + 1;
+    if (question < f->answered) call.answer = f->out + (size_t)question * (size_t)f->out_words;
 }
 
 /* ---- texels of pyramids ---- */
@@ -254,7 +264,7 @@ static void forget(void) {
     pool.size = pool.count = 0;
     shader_renew();
     for (i = 0; i < SHADER_FUNCTIONS; i++) {
-        functions[i].count = functions[i].answered = functions[i].asked = 0;
+        functions[i].count = functions[i].answered = functions[i].asked = functions[i].next = 0;
         if (functions[i].slots)
             memset(functions[i].slots, 0, (size_t)functions[i].slot_count * sizeof *functions[i].slots);
     }
@@ -309,6 +319,7 @@ static int ask_all(int *few) {
     int i, news = 0, count = 0;
     for (i = 0; i < SHADER_FUNCTIONS; i++) {
         count += functions[i].count;
+        functions[i].next = 0;
         news += functions[i].count - functions[i].answered;
         if (functions[i].count > functions[i].answered) ask(&functions[i], i);
     }
