@@ -1,13 +1,14 @@
 /*
  gpu.c - the shaders on a Vulkan device beside the same in C on the CPU: pictures, their difference, and times
 
- Shading with virtual spherical Gaussian lights and their shadow maps (papers 000 and 001, section 4), by the compute and
- the fragment shaders of both languages.
+ Shading with virtual spherical Gaussian lights and their shadow maps (papers 000 and 001, section 4), and the lobe-aware
+ cross bilateral filter (004, Eq. 12), by the compute and the fragment shaders of both languages.
 */
 #include "../fis.h"
 #include "common/buffers.h"
 #include "common/fail.h"
-#include "common/gpu.h"
+#include "common/glossy_frame.h"
+#include "common/gpu_filter.h"
 #include "common/gpu_shade.h"
 #include "common/image.h"
 #include "common/options.h"
@@ -19,7 +20,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { RSM_SIZE = 512, MOST_RUNS = 15, LEAST_RUNS = 3, STAGES_OF_SHADERS = 2, LANGUAGES = 2, DIFFERENCE_SCALE = 100000 };
+enum {
+    RSM_SIZE = 512,
+    SAMPLES = 8,
+    MOST_RUNS = 15,
+    LEAST_RUNS = 3,
+    STAGES_OF_SHADERS = 2,
+    LANGUAGES = 2,
+    DIFFERENCE_SCALE = 100000
+};
 
 const char *const program_name = "gpu";
 
@@ -72,6 +81,18 @@ static int timing_goes_on(const timing *t) {
 static void timing_add(timing *t, double ms) {
     t->ms[t->count++] = ms;
     t->sum += ms;
+}
+
+/* The picture that is wanted, and how long it takes */
+static void measure_cpu(work *w, void (*run)(const void *task, image *picture), const void *task) {
+    timing t = {0};
+    run(task, &w->wanted); /* touches the memory */
+    while (timing_goes_on(&t)) {
+        const double started = progress_clock();
+        run(task, &w->wanted);
+        timing_add(&t, progress_clock() - started);
+    }
+    w->cpu_ms = progress_median(t.ms, t.count);
 }
 
 /* Runs the shaders of a language, and prints a line for each stage. */
@@ -137,6 +158,17 @@ static light_set generate_lights(const scene *world, const settings *o) {
     return set;
 }
 
+typedef struct {
+    const vpl_map *view;
+    const light_set *set;
+    const shadow_map *maps;
+} shade_task;
+
+static void shade_on_cpu(const void *task, image *picture) {
+    const shade_task *t = (const shade_task *)task;
+    vsgl_shade(t->view, t->set->lights, t->maps, t->set->count, picture->pixels, "VSGL shading, CPU");
+}
+
 static double run_shade(void *prepared, gpu_stage stage, vec3 *pixels) {
     return gpu_shade_run((gpu_shade *)prepared, stage, pixels);
 }
@@ -148,7 +180,7 @@ static void compare_shading(work *w, gpu *device, const settings *o) {
     light_set set = generate_lights(&world, o);
     shadow_map *maps = (shadow_map *)allocate("shadow maps", (size_t)set.count, sizeof *maps);
     gpu_shade *prepared[LANGUAGES];
-    timing t = {0};
+    shade_task task;
     char folder[OUTPUT_NAME];
     int i;
     vsgl_shadow_maps(&world, set.lights, set.count, maps);
@@ -157,13 +189,10 @@ static void compare_shading(work *w, gpu *device, const settings *o) {
         prepared[i] = gpu_shade_create(device, folder, &view, world.eye.position, set.lights, maps, set.count);
     }
     work_begin(w, o->size.width, o->size.height);
-    vsgl_shade(&view, set.lights, maps, set.count, w->wanted.pixels, "VSGL shading, CPU"); /* touches the memory */
-    while (timing_goes_on(&t)) {
-        const double started = progress_clock();
-        vsgl_shade(&view, set.lights, maps, set.count, w->wanted.pixels, "VSGL shading, CPU");
-        timing_add(&t, progress_clock() - started);
-    }
-    w->cpu_ms = progress_median(t.ms, t.count);
+    task.view = &view;
+    task.set = &set;
+    task.maps = maps;
+    measure_cpu(w, shade_on_cpu, &task);
     for (i = 0; i < LANGUAGES; i++) {
         measure(w, device, languages[i], run_shade, prepared[i]);
         gpu_shade_free(prepared[i]);
@@ -174,12 +203,59 @@ static void compare_shading(work *w, gpu *device, const settings *o) {
     buffer_free(&seen);
 }
 
+/* ---- filter ---- */
+
+typedef struct {
+    const filter_planes *planes;
+    const guide *guides;
+} filter_task;
+
+static const filter_method lobes = FILTER_EQ12;
+static const float beta = 2;
+
+static void filter_on_cpu(const void *task, image *picture) {
+    const filter_task *t = (const filter_task *)task;
+    filter_frame(t->planes, t->guides, lobes, &beta, filter_depth_variance, picture);
+}
+
+static double run_filter(void *prepared, gpu_stage stage, vec3 *pixels) {
+    return gpu_filter_run((gpu_filter *)prepared, stage, pixels);
+}
+
+static void compare_filter(work *w, gpu *device, const settings *o) {
+    static const subject tiles = {"tiles", scene_gallery, look_tiles, 0};
+    const scene world = scene_gallery();
+    frame f = frame_of(&world, &tiles, o->size.width, o->size.height);
+    image noisy = shade_frame(&f, SAMPLES, (unsigned)o->seed, 0, "noisy light");
+    filter_planes *planes = filter_planes_create(f.width, f.height, filter_most_parts(f.guides, f.width * f.height));
+    filter_task task;
+    int i;
+    filter_fill_colours(planes, &noisy);
+    work_begin(w, f.width, f.height);
+    task.planes = planes;
+    task.guides = f.guides;
+    measure_cpu(w, filter_on_cpu, &task);
+    for (i = 0; i < LANGUAGES; i++) {
+        char folder[OUTPUT_NAME];
+        gpu_filter *prepared;
+        output_name(folder, o->shaders, i ? "/hlsl" : "/glsl");
+        prepared = gpu_filter_create(device, folder, &noisy, f.guides, lobes, beta, filter_depth_variance);
+        measure(w, device, languages[i], run_filter, prepared);
+        gpu_filter_free(prepared);
+    }
+    filter_planes_free(planes);
+    image_free(&noisy);
+    frame_free(&f);
+}
+
 /* ---- */
 
 int main(int argc, char **argv) {
     settings o = {{256, 192}, 256, 1, NULL, "build/shaders", "build/gpu"};
     work shading = {
         "VSGL shading", {"-shade-cpu.png", "-shade-gpu.png", "-shade-difference.png"}, 2.2f, {0}, {0}, {0}, 0, 0};
+    work filter = {
+        "lobe filter", {"-filter-cpu.png", "-filter-gpu.png", "-filter-difference.png"}, 1, {0}, {0}, {0}, 0, 0};
     const option options[] = {
         OPTION_OF_SIZE(&o.size),
         {"--lights N", OPTION_WHOLE, &o.lights, 1, 65536, "virtual lights that shade", 0},
@@ -195,6 +271,7 @@ int main(int argc, char **argv) {
                  "Runs the shaders on a Vulkan device and the same in C on the CPU, and prints times and what the\n"
                  "pictures differ by.");
     work_check(&shading, &o);
+    work_check(&filter, &o);
     device = gpu_open(o.device ? o.device : "");
     printf("%dx%d pixels, %d lights; milliseconds are medians of %d to %d runs, for the device with the least and the "
            "most\n\n",
@@ -202,8 +279,10 @@ int main(int argc, char **argv) {
     printf("work         language stage       GPU ms     least      most    CPU ms  CPU/GPU    PSNR  device\n");
     fflush(stdout);
     compare_shading(&shading, device, &o);
+    compare_filter(&filter, device, &o);
     printf("\n");
     work_end(&shading, &o);
+    work_end(&filter, &o);
     gpu_close(device);
     return 0;
 }
