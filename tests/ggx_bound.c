@@ -14,13 +14,6 @@ static test_bound bound_of(const char *function, const char *kind) {
     return test_bound_of("ggx_bound.h", function, kind);
 }
 
-/* One of the model, which is the same in a shader: no slack */
-static test_bound model_bound_of(const char *function, const char *kind) {
-    test_bound bound = bound_of(function, kind);
-    bound.limit /= test_slack;
-    return bound;
-}
-
 /* ---- input ---- */
 
 static double uniform(void) {
@@ -565,7 +558,7 @@ static void test_volumes(void) {
         }
     }
     for (i = 0; i < COUNT(stated_in_header); i++) {
-        test_bound most = model_bound_of("ggx_bound_ellipsoid", stated_in_header[i].kind);
+        test_bound most = bound_of("ggx_bound_ellipsoid", stated_in_header[i].kind);
         light l = tilted(stated_in_header[i].degrees, stated_in_header[i].alpha);
         record_light(&l);
         within(&most, volume_size(volume_of(&l, ELLIPSOID)) / volume_size(volume_of(&l, SPHEROID)), 0, 1);
@@ -607,7 +600,7 @@ static void test_tightness(void) {
 
 /* The corrected spheroid of the larger alpha: its range times the larger alpha over the mean one */
 static void test_volumes_aniso(void) {
-    test_bound mean = model_bound_of("ggx_bound_ellipsoid_aniso", "volume");
+    test_bound mean = bound_of("ggx_bound_ellipsoid_aniso", "volume");
     double sum = 0;
     int i;
     for (i = 0; i < 4000; i++) {
@@ -634,7 +627,7 @@ static void test_volumes_aniso(void) {
 
 /* Diffuse: the region is a curve turned about the normal, |p| = R sqrt(cos). */
 static void test_diffuse(void) {
-    test_bound share = model_bound_of("ggx_bound_diffuse_ellipsoid", "volume");
+    test_bound share = bound_of("ggx_bound_diffuse_ellipsoid", "volume");
     double tight = 0, tight_ellipsoid = 0;
     int i;
     for (i = 0; i < test_draws(300000); i++) {
@@ -1175,7 +1168,7 @@ static void test_boxes(void) {
 }
 
 static void test_boxes_near(void) {
-    test_bound false_hits = model_bound_of("ggx_ellipsoid_hits_box", "false_hits");
+    test_bound false_hits = bound_of("ggx_ellipsoid_hits_box", "false_hits");
     long apart = 0, told = 0;
     int i, k;
     for (i = 0; i < 100000; i++) {
@@ -1302,9 +1295,9 @@ static void test_tiles(void) {
 
 /* Those near the ellipsoid, by chance */
 static void test_tiles_near(void) {
-    test_bound false_hits = model_bound_of("ggx_stretched_hits_tile", "false_hits");
-    test_bound both_hit = model_bound_of("ggx_ellipsoid_hits_sides", "false_hits");
-    test_bound closer = model_bound_of("ggx_stretched_hits_frustum", "false_hits");
+    test_bound false_hits = bound_of("ggx_stretched_hits_tile", "false_hits");
+    test_bound both_hit = bound_of("ggx_ellipsoid_hits_sides", "false_hits");
+    test_bound closer = bound_of("ggx_stretched_hits_frustum", "false_hits");
     long apart = 0, hits = 0, apart_by_both = 0, hits_both = 0, apart_closer = 0, hits_closer = 0;
     int i;
     for (i = 0; i < 100000; i++) {

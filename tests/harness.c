@@ -30,7 +30,7 @@ test_bound test_bound_of(const char *header, const char *function, const char *k
     test_bound bound;
     char path[1024], line[1024], prefix[128];
     FILE *file;
-    int found = 0;
+    int found = 0, of_model = 0;
     memset(&bound, 0, sizeof bound);
     snprintf(bound.label, sizeof bound.label, "%s %s", function, kind);
     snprintf(prefix, sizeof prefix, "[bound %s %s ", function, kind);
@@ -42,13 +42,14 @@ test_bound test_bound_of(const char *header, const char *function, const char *k
     }
     while (!found && fgets(line, sizeof line, file)) {
         const char *tag = strstr(line, prefix);
+        if (!strncmp(line, "   Rounding:", 12) || !strncmp(line, "   Model:", 9)) of_model = line[3] == 'M';
         if (tag) {
             int fields = sscanf(tag + strlen(prefix), "%lf over %lf %lf", &bound.limit, &bound.low, &bound.high);
             found = fields == 1 || fields == 3;
         }
     }
     fclose(file);
-    bound.limit *= test_slack;
+    if (!of_model) bound.limit *= test_slack;
     if (!found) {
         printf("    %s has no tag '%s...]'\n", header, prefix);
         failures++;

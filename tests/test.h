@@ -60,7 +60,7 @@ extern int test_most;
 
 /* The count, or fewer where even a few are enough: for tests of a million draws. */
 int test_draws(int count);
-extern double test_slack; /* what every limit is multiplied by: 1, more for shaders */
+extern double test_slack; /* what limits of rounding are multiplied by: 1, more for shaders */
 
 /* How often random searches are to be repeated: 1, many with --long. */
 extern int test_repeat;

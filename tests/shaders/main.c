@@ -11,7 +11,7 @@
 
 const char *const program_name = "shader_tests";
 
-enum { MOST_WORDS = 256, MOST_QUESTIONS = 1 << 17, MOST_ROUNDS = 5, ENOUGH = 100000, MOST_SEEDS = 100 };
+enum { MOST_WORDS = 256, MOST_QUESTIONS = 1 << 20, MOST_ROUNDS = 5, ENOUGH = 100000, MOST_SEEDS = 100 };
 
 typedef struct {
     const char *name;
@@ -31,6 +31,8 @@ static const char *const languages[2] = {"glsl", "hlsl"};
 static const char *folder;   /* of both languages' folders */
 static int language;         /* whose answers the tests get */
 static int languages_differ; /* in any answer to this test */
+static long calls;           /* in this run of the test */
+static long unanswered;      /* and those for which the header's result stood */
 
 /* ---- one call ---- */
 
@@ -109,6 +111,8 @@ static void make_room(function *f) {
 void shader_find(void) {
     function *f = call.f;
     int question;
+    calls++;
+    unanswered++;
     if (call.unfit) return;
     if (call.word_count != f->in_words) give_up(f->name, "takes other words in the shader than in the header");
     f->asked = 1;
@@ -126,7 +130,10 @@ void shader_find(void) {
         question = *slot - 1;
     }
     f->next = question + 1;
-    if (question < f->answered) call.answer = f->out + (size_t)question * (size_t)f->out_words;
+    if (question < f->answered) {
+        call.answer = f->out + (size_t)question * (size_t)f->out_words;
+        unanswered--;
+    }
 }
 
 /* ---- texels of pyramids ---- */
@@ -367,6 +374,7 @@ static int judge_in(const test_case *test, int in) {
     forget();
     test_quiet = 1;
     for (round = 0; round < MOST_ROUNDS && !few; round++) { /* what a search asks depends on all answers before */
+        calls = unanswered = 0;
         failures = test_run(test);
         news = ask_all(&few);
     }
@@ -376,7 +384,10 @@ static int judge_in(const test_case *test, int in) {
         return 0;
     }
     test_quiet = test_seed != 0; /* more of the same */
-    return test_run(test);
+    calls = unanswered = 0;
+    failures = test_run(test);
+    if (test_verbose && !test_quiet) printf("    %ld of %ld calls answered by the shader\n", calls - unanswered, calls);
+    return failures;
 }
 
 static int judge(const test_case *test) {
