@@ -154,7 +154,7 @@ SHADER_TESTS = $(filter-out tests/main.c,$(TESTS)) $(wildcard tests/shaders/*.c)
 
 $(BUILD)/shader_tests: $(SHADER_TESTS) $(BUILD)/shaders/compiled $(wildcard tests/*.h tests/shaders/*.h examples/common/*.h) \
                        $(HEADERS) $(BUILD)/flags
-	$(COMPILE) -include $(BUILD)/shaders/redirect.h $(SHADER_TESTS) -o $@ -lvulkan -lm
+	$(COMPILE) -I. -include $(BUILD)/shaders/redirect.h $(SHADER_TESTS) -o $@ -lvulkan -lm
 
 # cull.c includes examples/light_culling.c, for its stages.
 PIPELINE_TESTS = $(wildcard tests/shaders/pipelines/*.c) $(COMMON) $(wildcard examples/common/gpu*.c)

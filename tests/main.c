@@ -1,13 +1,15 @@
 /* The unit-test executable: runs every test, or those whose name contains the argument. */
 #include "test.h"
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void usage(FILE *to) {
-    fprintf(to, "usage: tests [--verbose] [--long] [--root DIR] [NAME]\n"
+    fprintf(to, "usage: tests [--verbose] [--long] [--seed N] [--root DIR] [NAME]\n"
                 "  NAME       run only the tests whose name contains it\n"
                 "  --verbose  print the largest error seen beside each bound\n"
                 "  --long     search four hundred times longer for what exceeds a bounding volume\n"
+                "  --seed     draw other inputs (default: 0)\n"
                 "  --root     where the headers are (default: .)\n");
 }
 
@@ -24,6 +26,8 @@ int main(int argc, char **argv) {
             test_verbose = 1;
         } else if (!strcmp(argv[i], "--long")) {
             test_repeat = 400;
+        } else if (!strcmp(argv[i], "--seed") && i + 1 < argc) {
+            test_seed = strtoull(argv[++i], NULL, 10) << 32;
         } else if (!strcmp(argv[i], "--root") && i + 1 < argc) {
             test_root = argv[++i];
         } else if (argv[i][0] == '-') {

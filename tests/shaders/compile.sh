@@ -54,8 +54,8 @@ made c > "$build/redirect.part" || exit 1
 {
     echo '#ifndef REDIRECT_H'
     echo '#define REDIRECT_H'
-    for header in $headers; do echo "#include \"../../$header\""; done
-    echo '#include "../../tests/shaders/shader.h"'
+    for header in $headers; do echo "#include \"$header\""; done
+    echo '#include "tests/shaders/shader.h"'
     cat "$build/redirect.part"
     echo '#endif'
 } > "$build/redirect.h"
