@@ -357,9 +357,9 @@ LOBE_INLINE float lobe_asg_clamped_mean(lobe_asg_means m, float *square) {
              sharpness up to 1e9 it is symmetric to 1.5e-6 of that, and to the last bit where sums are not contracted
              [bound asg_product_integral symmetric 1.5e-6] [bound asg_product_integral excess 3e-4]
    Model:    within .0125 of that mean, relative RMS .045 where the value is above 1 % of it; for sharpness of 10 or
-             more within .003 relative where it is above 1 % of the mean
+             more within .007 relative where it is above 1 % of the mean
              [bound asg_product_integral aligned .0125 over 1e-2 1e5]
-             [bound asg_product_integral rms .045 over 1e-2 1e5] [bound asg_product_integral sharp .003 over 10 1e5]
+             [bound asg_product_integral rms .045 over 1e-2 1e5] [bound asg_product_integral sharp .007 over 10 1e5]
    Source:   derived for this library: saddlepoint of the Bingham normaliser, fitted moments, and the arc-cosine kernel
              for both clamped cosines. No eigenvectors: the coefficients of the characteristic polynomial are sums of
              positive terms, where Cardano's formula cancels (004, "Errors of ASGs").
@@ -381,9 +381,9 @@ LOBE_API float asg_product_integral(asg_lobe a, asg_lobe b) {
              the form with eigenvectors
              [bound asg_product_integral_xu directional 5 over 1e6 1e8]
              [bound asg_product_integral_xu eigenvectors 4e-5 over 10 1e4]
-   Model:    for sharpness of 10 or more within .009 of the geometric mean of the lobes' integrals with themselves,
+   Model:    for sharpness of 10 or more within .027 of the geometric mean of the lobes' integrals with themselves,
              relative RMS .004 where the value is above 1 % of that, the weight within .006; below 1 useless
-             [bound asg_product_integral_xu aligned .009 over 10 1e5]
+             [bound asg_product_integral_xu aligned .027 over 10 1e5]
              [bound asg_product_integral_xu rms .004 over 10 1e5]
              [bound asg_product_integral_xu weight .006 over 10 1e5]
    Source:   Xu et al. 2013; 004, section 4.2. The smallest eigenvalue by Laguerre's method
@@ -530,11 +530,11 @@ LOBE_API asg_lobe asg_reflection_lobe_aniso(lobe_vec3 normal, lobe_vec3 tangent,
    tangent    the direction of alpha_x
 
    Rounding: as the function they call
-   Model:    for cos >= .4: GGX has a narrower middle and heavier tails, so that values are within .19 of the
-             distribution over its peak for alpha of .002 .. .05, where the warp costs little; within .29 and the
-             integral within .12 relative for .02 .. .3
-             [bound asg_ggx_lobe sharp .19 over .002 .05]
-             [bound asg_ggx_lobe value .29 over .02 .3] [bound asg_ggx_lobe integral .12 over .02 .3]
+   Model:    for cos >= .4 and alphas at most 10 : 3: GGX has a narrower middle and heavier tails, so that values are
+             within .2 of the distribution over its peak for alpha of .002 .. .05, where the warp costs little; within
+             .415 and the integral within .12 relative for .02 .. .3
+             [bound asg_ggx_lobe sharp .2 over .002 .05]
+             [bound asg_ggx_lobe value .415 over .02 .3] [bound asg_ggx_lobe integral .12 over .02 .3]
    Source:   Walter et al. 2007 for the distribution
 */
 LOBE_API asg_lobe asg_ggx_lobe(lobe_vec3 normal, lobe_vec3 wi, float alpha) {
@@ -550,10 +550,10 @@ LOBE_API asg_lobe asg_ggx_lobe_aniso(lobe_vec3 normal, lobe_vec3 tangent, lobe_v
  asg_beckmann_lobe, asg_beckmann_lobe_aniso - reflection lobes of Beckmann surfaces, by the same 1 / alpha^2
 
    Rounding: as the function they call
-   Model:    a Gaussian of slopes, so that only the warp's error is left: under the same conditions within .045 for
-             alpha of .002 .. .05, within .29 and the integral within .06 for .02 .. .3
-             [bound asg_beckmann_lobe sharp .045 over .002 .05]
-             [bound asg_beckmann_lobe value .29 over .02 .3] [bound asg_beckmann_lobe integral .06 over .02 .3]
+   Model:    a Gaussian of slopes, so that only the warp's error is left: under the same conditions within .072 for
+             alpha of .002 .. .05, within .42 and the integral within .063 for .02 .. .3
+             [bound asg_beckmann_lobe sharp .072 over .002 .05]
+             [bound asg_beckmann_lobe value .42 over .02 .3] [bound asg_beckmann_lobe integral .063 over .02 .3]
    Source:   Beckmann and Spizzichino 1963
 */
 LOBE_API asg_lobe asg_beckmann_lobe(lobe_vec3 normal, lobe_vec3 wi, float alpha) {
@@ -569,10 +569,10 @@ LOBE_API asg_lobe asg_beckmann_lobe_aniso(lobe_vec3 normal, lobe_vec3 tangent, l
  asg_ward_lobe - reflection lobe of Ward's BRDF, whose exponential of slopes has 1 / alpha^2 too
 
    Rounding: as asg_reflection_lobe_aniso
-   Model:    of the exponential alone, without 1 / sqrt(cos cos), which is the caller's constant: within .045 for alpha
-             of .002 .. .05, within .33 and the integral within .16 for .02 .. .3
-             [bound asg_ward_lobe sharp .045 over .002 .05]
-             [bound asg_ward_lobe value .33 over .02 .3] [bound asg_ward_lobe integral .16 over .02 .3]
+   Model:    of the exponential alone, without 1 / sqrt(cos cos), which is the caller's constant: within .073 for alpha
+             of .002 .. .05, within .43 and the integral within .145 for .02 .. .3
+             [bound asg_ward_lobe sharp .073 over .002 .05]
+             [bound asg_ward_lobe value .43 over .02 .3] [bound asg_ward_lobe integral .145 over .02 .3]
    Source:   Ward 1992
 */
 LOBE_API asg_lobe asg_ward_lobe(lobe_vec3 normal, lobe_vec3 tangent, lobe_vec3 wi, float alpha_x, float alpha_y) {
@@ -585,11 +585,11 @@ LOBE_API asg_lobe asg_ward_lobe(lobe_vec3 normal, lobe_vec3 tangent, lobe_vec3 w
    exponent   of an isotropic cos^exponent, or of Ashikhmin and Shirley's along tangent (x) and across; [0, 1e9]
 
    Rounding: as the function they call
-   Model:    under the same conditions within .045 for exponents of 1e3 and more, within .29 and the integral within
-             .085 for 20 and more
-             [bound asg_phong_lobe sharp .045 over 1e3 1e5] [bound asg_ashikhmin_lobe sharp .045 over 1e3 1e5]
-             [bound asg_phong_lobe value .29 over 20 1e4] [bound asg_phong_lobe integral .085 over 20 1e4]
-             [bound asg_ashikhmin_lobe value .29 over 20 1e4] [bound asg_ashikhmin_lobe integral .085 over 20 1e4]
+   Model:    under the same conditions within .029, by Ashikhmin .043, for exponents of 1e3 and more, within .27 and
+             .343 and the integral within .067 and .075 for 20 and more
+             [bound asg_phong_lobe sharp .029 over 1e3 1e5] [bound asg_ashikhmin_lobe sharp .043 over 1e3 1e5]
+             [bound asg_phong_lobe value .27 over 20 1e4] [bound asg_phong_lobe integral .067 over 20 1e4]
+             [bound asg_ashikhmin_lobe value .343 over 20 1e4] [bound asg_ashikhmin_lobe integral .075 over 20 1e4]
    Source:   Blinn 1977; Ashikhmin and Shirley 2000
 */
 LOBE_API asg_lobe asg_phong_lobe(lobe_vec3 normal, lobe_vec3 wi, float exponent) {

@@ -787,8 +787,8 @@ LOBE_API vsgl vsgl_from_moments(vsgl_moments m, lobe_vec3 origin) {
    position   in the scene, up to 1e5 from 0: no origin need be chosen
    others     as in vsgl_moments_from_vpl, which is what a GPU can mipmap; this is what stays exact
 
-   Rounding: its light has a variance of 0, and its lobe's sharpness to 2e-7 relative up to 1e10
-             [bound vsgl_cluster_from_vpl sharpness 2e-7 over 1e-3 1e10]
+   Rounding: its light has a variance of 0, and its lobe's sharpness to 3e-7 relative up to 1e10
+             [bound vsgl_cluster_from_vpl sharpness 3e-7 over 1e-3 1e10]
    Model:    as vsgl_moments_from_vpl
    Source:   000, section 3.1, with 1 - length beside the length, which near 1 tells nothing
 */

@@ -95,6 +95,15 @@ static void measure_cpu(work *w, void (*run)(const void *task, image *picture), 
     w->cpu_ms = progress_median(t.ms, t.count);
 }
 
+/* Once the shaders are there, and nothing wrong with what was asked for */
+static void print_head(const settings *o) {
+    printf("%dx%d pixels, %d lights; milliseconds are medians of %d to %d runs, for the device with the least and the "
+           "most\n\n",
+           o->size.width, o->size.height, o->lights, LEAST_RUNS, MOST_RUNS);
+    printf("work         language stage       GPU ms     least      most    CPU ms  CPU/GPU    PSNR  device\n");
+    fflush(stdout);
+}
+
 /* Runs the shaders of a language, and prints a line for each stage. */
 static void measure(work *w, const gpu *device, const char *language, device_run run, void *prepared) {
     int stage;
@@ -188,6 +197,7 @@ static void compare_shading(work *w, gpu *device, const settings *o) {
         output_name(folder, o->shaders, i ? "/hlsl" : "/glsl");
         prepared[i] = gpu_shade_create(device, folder, &view, world.eye.position, set.lights, maps, set.count);
     }
+    print_head(o);
     work_begin(w, o->size.width, o->size.height);
     task.view = &view;
     task.set = &set;
@@ -273,11 +283,6 @@ int main(int argc, char **argv) {
     work_check(&shading, &o);
     work_check(&filter, &o);
     device = gpu_open(o.device ? o.device : "");
-    printf("%dx%d pixels, %d lights; milliseconds are medians of %d to %d runs, for the device with the least and the "
-           "most\n\n",
-           o.size.width, o.size.height, o.lights, LEAST_RUNS, MOST_RUNS);
-    printf("work         language stage       GPU ms     least      most    CPU ms  CPU/GPU    PSNR  device\n");
-    fflush(stdout);
     compare_shading(&shading, device, &o);
     compare_filter(&filter, device, &o);
     printf("\n");

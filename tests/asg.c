@@ -534,6 +534,7 @@ static void products_match(void) {
         if (i % 40 == 0) angle = 0;
         if (i % 40 == 1) angle = REFERENCE_PI;
         if (i % 40 == 2) angle = REFERENCE_PI / 2;
+        if (i % 40 == 3) angle = 0, l[0] = l[1] = l[2] = l[3] = smallest = xu.low; /* Xu's worst */
         inputs[4] = angle;
         test_direction(&rng, z);
         a = lobe_around(z, 7 * test_uniform(&rng), l[0], l[1]);
@@ -554,7 +555,7 @@ static void products_match(void) {
         if (smallest < xu.low) continue;
         got = (double)asg_product_integral_xu(a, b);
         test_within(&xu, got, wanted, aligned, inputs, 5);
-        if (wanted > 0.01 * aligned) {
+        if (wanted > 0.01 * aligned && i % 40 != 3) {
             xu_squares += pow(got / wanted - 1, 2);
             xu_count++;
         }
@@ -1127,7 +1128,8 @@ static void lobes_match_distributions(void) {
             c.x = inputs[0] = test_log_uniform(&rng, bound->low, bound->high);
             c.y = inputs[1] =
                 anisotropic ? fmin(fmax(c.x * test_log_uniform(&rng, 0.3, 3), bound->low), bound->high) : c.x;
-            inputs[2] = i % 8 == 0 ? 0.4 : 0.4 + 0.6 * test_uniform(&rng);
+            if (i % 4 == 1 && anisotropic) c.y = inputs[1] = fmax(0.3 * c.x, bound->low); /* the worst are there */
+            inputs[2] = i % 4 < 2 ? 0.4 : 0.4 + 0.6 * test_uniform(&rng);
             inputs[3] = kind;
             direction_near(&rng, n, acos(inputs[2]), c.wi);
             a = ndf_lobe(&c, anisotropic);
@@ -1174,7 +1176,9 @@ static void lobes_agree(void) {
                       fabs((double)(a.sharpness_y / b.sharpness_y) - 1) < 1e-5,
                   "Ward by roughness", inputs, 1);
         a = asg_beckmann_lobe_aniso(narrow(n), narrow(t), narrow(w), alpha, alpha / 3);
-        test_that(a.sharpness_x == b.sharpness_x && a.sharpness_y == b.sharpness_y, "Beckmann as Ward", inputs, 1);
+        test_that(fabs((double)(a.sharpness_x / b.sharpness_x) - 1) < 1e-6 &&
+                      fabs((double)(a.sharpness_y / b.sharpness_y) - 1) < 1e-6,
+                  "Beckmann as Ward", inputs, 1);
         if (i % 16) continue;
         a = asg_reflection_lobe_aniso(narrow(n), narrow(t), narrow(w), 0, 0);
         test_that(a.sharpness_x == 0 && a.sharpness_y == 0, "sharpness 0 stays 0", inputs, 1);
