@@ -21,7 +21,8 @@ typedef struct {
     int *slots, slot_count;   /* hash table of question + 1 */
     int next;                 /* question expected: a test mostly asks in the order in which it did */
     int asked;                /* by this test */
-    long total;               /* answered in all tests that judge accuracy */
+    long total;               /* answered in all tests */
+    long judged;              /* and in those that judge accuracy, not only whether results are finite */
     gpu_program *programs[2]; /* in each language */
 } function;
 
@@ -318,7 +319,8 @@ static void ask(function *f, int which) {
     free(questions);
     free(answers[0]);
     free(answers[1]);
-    if (!language && judges_accuracy) f->total += count;
+    if (!language) f->total += count;
+    if (!language && judges_accuracy) f->judged += count;
     f->answered = f->count;
 }
 
@@ -430,8 +432,8 @@ static void judge_counts(int *passed, int *failed) {
     for (i = 0; i < SHADER_FUNCTIONS; i++) {
         const function *f = &functions[i];
         if (test_verbose || f->total < ENOUGH)
-            printf("%s %s: %ld inputs\n", f->total < ENOUGH ? "FAILED" : "ok    ", f->name ? f->name : "a function",
-                   f->total);
+            printf("%s %s: %ld inputs, %ld of them judged for accuracy\n", f->total < ENOUGH ? "FAILED" : "ok    ",
+                   f->name ? f->name : "a function", f->total, f->judged);
         if (f->total < ENOUGH)
             ++*failed;
         else
