@@ -259,8 +259,9 @@ LOBE_API float ggx_smith_g2_separable(float cos_i, float cos_o, float alpha) {
    normal, wi, wo  unit
    returns         per steradian; 0 for wo at the horizon or below, wi below; for wi at the horizon the limit
 
-   Rounding: <= 12 angular and 12 2^-24 (1 / cos_i + 1 / cos_o), cosines at least alpha
-             [bound ggx_brdf_cos angular 12 over 1e-4 1]
+   Rounding: a factor of at most exp(+-8 (angular / cos_half + 2^-24 (1 / max(cos_i, alpha) + 1 / cos_o))), cosines at
+             least 1e-6, cos_half as in ggx_cos_half: of nearly opposed directions even their lengths' rounding turns
+             the half vector by more than alpha   [bound ggx_brdf_cos angular 8 over 1e-4 1]
    Model:    exact
    Source:   003, Eqs. 4 and 6; with G2 / cos_i as one quotient, which is finite at grazing angles
 */
@@ -272,7 +273,7 @@ LOBE_API float ggx_brdf_cos(lobe_vec3 normal, lobe_vec3 wi, lobe_vec3 wo, float 
 }
 
 /* ggx_brdf_cos_separable - the same with the separable G2; errors as in ggx_brdf_cos
-   [bound ggx_brdf_cos_separable angular 12 over 1e-4 1] */
+   [bound ggx_brdf_cos_separable angular 8 over 1e-4 1] */
 LOBE_API float ggx_brdf_cos_separable(lobe_vec3 normal, lobe_vec3 wi, lobe_vec3 wo, float alpha) {
     float a = lobe_ggx_alpha(alpha), cos_i = lobe_dot(wi, normal), cos_o = lobe_dot(wo, normal);
     float peak = a * lobe_ggx_lobe(lobe_add(wi, wo), normal, a);
@@ -280,8 +281,8 @@ LOBE_API float ggx_brdf_cos_separable(lobe_vec3 normal, lobe_vec3 wi, lobe_vec3 
     return lobe_ggx_reflected(peak * peak, cos_i, cos_o, divisor);
 }
 
-/* ggx_brdf_cos_aniso - the same height-correlated with two widths, as in ggx_ndf_aniso; twice the errors of
-   ggx_brdf_cos for the smaller alpha   [bound ggx_brdf_cos_aniso angular 24 over 1e-4 1] */
+/* ggx_brdf_cos_aniso - the same height-correlated with two widths, as in ggx_ndf_aniso; errors as in ggx_brdf_cos for
+   the smaller alpha, with 10 for 8 and 1 / cos_i   [bound ggx_brdf_cos_aniso angular 10 over 1e-4 1] */
 LOBE_API float ggx_brdf_cos_aniso(lobe_vec3 normal, lobe_vec3 tangent, lobe_vec3 wi, lobe_vec3 wo, float alpha_x,
                                   float alpha_y) {
     float ax = lobe_ggx_alpha(alpha_x), ay = lobe_ggx_alpha(alpha_y);
