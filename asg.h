@@ -160,7 +160,7 @@ LOBE_API float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
    returns    (0, pi] times both amplitudes, also for an SG below the lobe's horizon
 
    Rounding: <= 9 directional against the limit of a point   [bound asg_sg_integral directional 9 over 1e12 1e20]
-             and 16 against the formula in double   [bound asg_sg_integral formula 16 over 1e-2 1e8]
+             and 28 against the formula in double   [bound asg_sg_integral formula 28 over 1e-2 1e8]
    Model:    within .042 of the value for aligned axes, relative RMS .022 where the value is above 1 % of that; within
              7e-5 if all sharpnesses are 100 or more
              [bound asg_sg_integral aligned .042 over 1e-2 1e6] [bound asg_sg_integral rms .022 over 1e-2 1e6]
@@ -614,8 +614,8 @@ LOBE_API asg_lobe asg_ashikhmin_lobe(lobe_vec3 normal, lobe_vec3 tangent, lobe_v
    returns       reflected radiance per unit of v.intensity[component] and Fresnel reflectance
 
    Rounding: <= 17 directional   [bound asg_vsgl_specular directional 17]
-             A variance of 0, or below 1e-9 of the squared distance, gives the point light to 8e-6
-             [bound asg_vsgl_specular rel 8e-6]
+             A variance of 0, or below 1e-9 of the squared distance, gives the point light to as much for alpha of .1
+             or more
    Model:    against the integral of incoming lobe, reflection and C: within .05 for lights of a standard
              deviation up to a tenth of their distance and within alpha of the mirror direction, above grazing
              incidence
