@@ -137,9 +137,10 @@ LOBE_API float asg_integral_approx(asg_lobe a) {
               pi / sqrt((sharpness_x + nu) (sharpness_y + nu)); 0 for an SG from the horizon down
 
    Rounding: <= 9 directional   [bound asg_sg_integral_xu directional 9 over 1e12 1e18]
-   Model:    within .035 of the value for aligned axes if all sharpnesses are 10 or more, relative RMS .07 where the
-             value is above 1 % of that; several times too large for sharpness below 1; asg_sg_form tells more
-             [bound asg_sg_integral_xu aligned .035 over 10 1e6] [bound asg_sg_integral_xu rms .07 over 10 1e6]
+   Model:    within .035 of the value for aligned axes if all sharpnesses are 10 or more; where the value is above 1 %
+             of that, relative RMS .04, of 500 draws <= .15; several times too large for sharpness below 1; asg_sg_form
+             tells more
+             [bound asg_sg_integral_xu aligned .035 over 10 1e6] [bound asg_sg_integral_xu rms .15 over 10 1e6]
    Source:   Xu et al. 2013; 000, section 4.2; 001, Eq. 2
 */
 LOBE_API float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
@@ -165,8 +166,8 @@ LOBE_API float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
              7e-5 if all sharpnesses are 100 or more
              [bound asg_sg_integral aligned .042 over 1e-2 1e6] [bound asg_sg_integral rms .022 over 1e-2 1e6]
              [bound asg_sg_integral sharp 7e-5 over 100 1e6]
-             For sharpness below 1e3 that RMS is 1/20 of that of Xu's form, or less
-             [bound asg_sg_integral ratio .05 over .1 1e3]
+             For sharpness below 1e3 that RMS is about 1/25 of that of Xu's form, of 400 draws <= .06
+             [bound asg_sg_integral ratio .06 over .1 1e3]
    Source:   derived for this library: a saddlepoint tau of the Fisher-Bingham normaliser (after Kume and Wood 2005),
              in closed form and not quite where its equation F = 1 has it, which a term in F - 1 makes good, and a
              logistic split of the mean |z| between the two sides of the horizon; 13 constants fitted. Xu's form is the

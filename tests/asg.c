@@ -1292,8 +1292,8 @@ static void specular_point_light(void) {
         if (fmin(co, dot(toward, a.z)) < 0.1) continue;
         exponent = (double)light.sharpness * (-dot(toward, emission) - 1) - a.lx * pow(dot(toward, a.x), 2) -
                    a.ly * pow(dot(toward, a.y), 2);
-        wanted = exp(exponent) / (distance * distance) * dot(toward, a.z) * co * smith(s.alpha, dot(s.wi, s.normal), co) /
-                 (REFERENCE_PI * s.alpha * s.alpha);
+        wanted = exp(exponent) / (distance * distance) * dot(toward, a.z) * co *
+                 smith(s.alpha, dot(s.wi, s.normal), co) / (REFERENCE_PI * s.alpha * s.alpha);
         if (wanted < 1e-36 || exponent < -70) continue;
         inputs[0] = distance;
         inputs[1] = variance;
