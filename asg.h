@@ -137,9 +137,10 @@ LOBE_API float asg_integral_approx(asg_lobe a) {
               pi / sqrt((sharpness_x + nu) (sharpness_y + nu)); 0 for an SG from the horizon down
 
    Rounding: <= 9 directional   [bound asg_sg_integral_xu directional 9 over 1e12 1e18]
-   Model:    within .035 of the value for aligned axes if all sharpnesses are 10 or more, relative RMS .07 where the
-             value is above 1 % of that; several times too large for sharpness below 1; asg_sg_form tells more
-             [bound asg_sg_integral_xu aligned .035 over 10 1e6] [bound asg_sg_integral_xu rms .07 over 10 1e6]
+   Model:    within .035 of the value for aligned axes if all sharpnesses are 10 or more; where the value is above 1 %
+             of that, relative RMS .04, of 500 draws <= .15; several times too large for sharpness below 1; asg_sg_form
+             tells more
+             [bound asg_sg_integral_xu aligned .035 over 10 1e6] [bound asg_sg_integral_xu rms .15 over 10 1e6]
    Source:   Xu et al. 2013; 000, section 4.2; 001, Eq. 2
 */
 LOBE_API float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
@@ -160,13 +161,13 @@ LOBE_API float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
    returns    (0, pi] times both amplitudes, also for an SG below the lobe's horizon
 
    Rounding: <= 9 directional against the limit of a point   [bound asg_sg_integral directional 9 over 1e12 1e20]
-             and 16 against the formula in double   [bound asg_sg_integral formula 16 over 1e-2 1e8]
+             and 28 against the formula in double   [bound asg_sg_integral formula 28 over 1e-2 1e8]
    Model:    within .042 of the value for aligned axes, relative RMS .022 where the value is above 1 % of that; within
              7e-5 if all sharpnesses are 100 or more
              [bound asg_sg_integral aligned .042 over 1e-2 1e6] [bound asg_sg_integral rms .022 over 1e-2 1e6]
              [bound asg_sg_integral sharp 7e-5 over 100 1e6]
-             For sharpness below 1e3 that RMS is 1/20 of that of Xu's form, or less
-             [bound asg_sg_integral ratio .05 over .1 1e3]
+             For sharpness below 1e3 that RMS is about 1/25 of that of Xu's form, of 400 draws <= .06
+             [bound asg_sg_integral ratio .06 over .1 1e3]
    Source:   derived for this library: a saddlepoint tau of the Fisher-Bingham normaliser (after Kume and Wood 2005),
              in closed form and not quite where its equation F = 1 has it, which a term in F - 1 makes good, and a
              logistic split of the mean |z| between the two sides of the horizon; 13 constants fitted. Xu's form is the
@@ -614,8 +615,8 @@ LOBE_API asg_lobe asg_ashikhmin_lobe(lobe_vec3 normal, lobe_vec3 tangent, lobe_v
    returns       reflected radiance per unit of v.intensity[component] and Fresnel reflectance
 
    Rounding: <= 17 directional   [bound asg_vsgl_specular directional 17]
-             A variance of 0, or below 1e-9 of the squared distance, gives the point light to 8e-6
-             [bound asg_vsgl_specular rel 8e-6]
+             A variance of 0, or below 1e-9 of the squared distance, gives the point light to as much for alpha of .1
+             or more
    Model:    against the integral of incoming lobe, reflection and C: within .05 for lights of a standard
              deviation up to a tenth of their distance and within alpha of the mirror direction, above grazing
              incidence

@@ -458,14 +458,17 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
    weight     count exponents, which become weights
    returns    bilateral_sg_mixture_weight times 2^exponent
 
-   Rounding: of q <= 150 similarity, with l the largest sharpness, for sharpness of 1 or more, <= 500 below
-             [bound bilateral_sg_mixture_tap similarity 150 over 1 1e6]
-             [bound bilateral_sg_mixture_tap below 500 over .015625 1]
-             [bound bilateral_sg_mixture_taps similarity 150 over 1 1e6]
+   Rounding: of q, with l the largest sharpness, where no two axes are more than 150 degrees apart: <= 32 similarity
+             for sharpness of 1 or more, <= 120 below
+             [bound bilateral_sg_mixture_tap similarity 32 over 1 1e6]
+             [bound bilateral_sg_mixture_tap below 120 over .015625 1]
+             [bound bilateral_sg_mixture_taps similarity 32 over 1 1e6]
              Of equal mixtures it is 1, but with -ffast-math within 3e-5 of that
-             Of opposed equal lobes of sharpness below 1, whose L is nearly 0, within .02
-             [bound bilateral_sg_mixture_tap opposed .02 over .015625 1]
+             Of axes further apart, whose L may be nearly 0: within 4e-4 of q besides; below sharpness 1 within .02
+             [bound bilateral_sg_mixture_tap apart 4e-4] [bound bilateral_sg_mixture_tap opposed .02 over .015625 1]
    Model:    exact, but for lobes of sharpness below 1/64: q within .015   [bound bilateral_sg_mixture_tap wide .015]
+             and for axes so far apart with a sharpness of 16 or more: q within 2e-11
+             [bound bilateral_sg_mixture_tap dropped 2e-11]
    Source:   004, Eq. 11, with exp(-L) sinh L as a difference of exponentials, the second by the first's polynomial; 0
              where one of two lobes is of sharpness 16 or more
 */

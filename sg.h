@@ -467,8 +467,8 @@ LOBE_API sg_lobe sg_product(sg_lobe a, sg_lobe b) {
    a, b       sharpness [0, 1e30]
    returns    [0, 4 pi] times both amplitudes; 4 pi when both sharpnesses are 0
 
-   Rounding: <= 8 (1 + |ln g|) 2^-24, g the value over that of aligned axes
-             [bound sg_product_integral conditioned 8 over 1e-8 1e10]
+   Rounding: <= 12 (1 + |ln g|) 2^-24, g the value over that of aligned axes
+             [bound sg_product_integral conditioned 12 over 1e-8 1e10]
    Model:    exact
    Source:   Tsai and Shih 2006; 000, section 2 with 001, Eq. 1
 */
@@ -486,8 +486,8 @@ LOBE_API float sg_product_integral(sg_lobe a, sg_lobe b) {
    returns    [0, 2 pi / (sum of sharpness)] times both amplitudes; the sum counts as at
               least 1e-8, the amplitudes' product as at most 5e29
 
-   Rounding: <= 8 (1 + |ln g|) 2^-24, g the value over that of aligned axes; with -ffast-math <= 8.5
-             [bound sg_product_integral_approx conditioned 8 over 1e-8 1e10]
+   Rounding: <= 12 (1 + |ln g|) 2^-24, g the value over that of aligned axes
+             [bound sg_product_integral_approx conditioned 12 over 1e-8 1e10]
    Model:    relative error 1 / (exp(2 sum) - 1) for aligned axes; within .033 of the aligned value at any angle when
              both sharpnesses are at least 4, the worst for equal ones
              [bound sg_product_integral_approx model 0.033 over 4 1e5]
@@ -569,10 +569,10 @@ LOBE_API float lobe_cosine_mean_approx(float sharpness, float cosine) {
    returns    [0, pi] times the amplitude; pi at sharpness 0, 0 only where it underflows; all within the model's error
 
    Rounding: below the model's, or 1e-7 over sg_integral
-   Model:    over sg_integral, within 3.1e-5 absolute; within 7e-6 for sharpness up to 1, and 8e-6 from 100 on; where it
+   Model:    over sg_integral, within 3.1e-5 absolute; within 7e-6 for sharpness up to 1, and 8.5e-6 from 100 on; where it
              is above 1e-3 within 2 % relative
              [bound sg_cosine_integral abs 3.1e-5 over 1e-3 1e6] [bound sg_cosine_integral wide 7e-6 over 1e-3 1]
-             [bound sg_cosine_integral sharp 8e-6 over 100 1e6] [bound sg_cosine_integral rel 2e-2 over 1e-3 1e6]
+             [bound sg_cosine_integral sharp 8.5e-6 over 100 1e6] [bound sg_cosine_integral rel 2e-2 over 1e-3 1e6]
              At each of these sharpnesses at least as accurate as Tokuyoshi et al. 2024; with -ffast-math to 2^-24
    Source:   fitted for this library, see lobe_cosine_mean
 */

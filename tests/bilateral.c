@@ -294,12 +294,21 @@ static mixture other_mixture(const mixture *i, vec axis, double low, double high
     mixture m = *i;
     vec other;
     int l;
-    switch (pick(4)) {
+    switch (pick(5)) {
     case 0:
         return random_mixture(axis, low, high);
     case 1:
         return random_mixture(random_direction(), low, high);
     case 2:
+        return m;
+    case 3: /* opposed lobe by lobe, the hard case */
+        for (l = 0; l < m.count; l++) {
+            double angle = log_uniform(1e-5, 0.5), ratio = pick(2) ? 1 : log_uniform(0.9, 1.1);
+            other = unit(wide(m.lobe[l].axis));
+            m.lobe[l] = lobe_of(turned(combine(-1, other, 0, other), angle),
+                                fmin(fmax((double)m.lobe[l].sharpness * ratio, low), high),
+                                (double)m.lobe[l].log_amplitude);
+        }
         return m;
     default:
         break;
@@ -351,11 +360,28 @@ static double sharpest(const mixture *i, const mixture *j) {
     return most;
 }
 
+/* Whether two axes, of one mixture or of both, are more than 150 degrees apart */
+static int far_apart(const mixture *i, const mixture *j) {
+    sg_lobe all[2 * MOST_LOBES];
+    int l, m, count = 0;
+    for (l = 0; l < i->count; l++) all[count++] = i->lobe[l];
+    for (l = 0; l < j->count; l++) all[count++] = j->lobe[l];
+    for (l = 0; l < count; l++) {
+        for (m = 0; m < l; m++) {
+            if (dot(wide(all[l].axis), wide(all[m].axis)) < -0.8660254) return 1;
+        }
+    }
+    return 0;
+}
+
 static void mixtures_match(void) {
     test_bound bound = bound_of("bilateral_sg_mixture_weight", "similarity");
     test_bound tap = bound_of("bilateral_sg_mixture_tap", "similarity");
     test_bound row = bound_of("bilateral_sg_mixture_taps", "similarity");
     test_bound below = bound_of("bilateral_sg_mixture_tap", "below");
+    test_bound apart = bound_of("bilateral_sg_mixture_tap", "apart");
+    test_bound opposed = bound_of("bilateral_sg_mixture_tap", "opposed");
+    test_bound dropped = bound_of("bilateral_sg_mixture_tap", "dropped");
     test_bound wide_lobes = bound_of("bilateral_sg_mixture_tap", "wide");
     int k;
     for (k = 0; 20 * k < test_draws(2000000); k++) { /* nine pairs of lobes each */
@@ -386,7 +412,13 @@ static void mixtures_match(void) {
                         2 * MOST_LOBES);
             continue;
         }
+        if (low < tap.low && far_apart(&i, &j)) {
+            test_within(&opposed, (double)bilateral_sg_mixture_tap(0, product, 1), exp(log_q), 1, inputs,
+                        2 * MOST_LOBES);
+            continue;
+        }
         unit_of_q = similarity(log_q, 1, sharpest(&i, &j)) + 1e-20;
+        if (far_apart(&i, &j)) unit_of_q += (apart.limit * exp(log_q) + dropped.limit) / tap.limit;
         test_within(low < tap.low ? &below : &tap, (double)bilateral_sg_mixture_tap(0, product, 1), exp(log_q),
                     unit_of_q, inputs, 2 * MOST_LOBES);
         if (low >= tap.low) {
