@@ -82,17 +82,17 @@ static void integral_matches(void) {
     test_rng rng = {102 + test_seed};
     double l;
     int i;
-    for (i = 0; i < 3000; i++) {
+    for (i = 0; i < test_draws(3000); i++) {
         double inputs[2], wanted;
         asg_lobe a;
         inputs[0] = test_log_uniform(&rng, bound.low, bound.high);
         inputs[1] = fmin(inputs[0] * test_log_uniform(&rng, 1, i & 1 ? 1e5 : 100), bound.high);
         a = lobe_around(up, 0, inputs[i % 2], inputs[1 - i % 2]);
-        wanted = reference_integral((double)a.sharpness_x, (double)a.sharpness_y);
-        test_within(&bound, (double)asg_integral(a), wanted, wanted, inputs, 2);
         wanted = integral_formula((double)a.sharpness_x, (double)a.sharpness_y);
         test_within(&formula, (double)asg_integral(a), wanted, wanted, inputs, 2);
+        if (i >= 3000) continue; /* quadrature takes long */
         wanted = reference_integral((double)a.sharpness_x, (double)a.sharpness_y);
+        test_within(&bound, (double)asg_integral(a), wanted, wanted, inputs, 2);
         if (inputs[0] >= rough.low) test_within(&rough, (double)asg_integral_approx(a), wanted, wanted, inputs, 2);
     }
     for (l = round.low; l <= round.high; l *= 1.37) {
@@ -436,7 +436,7 @@ static void isotropic_matches(void) {
     test_bound bound = test_bound_of("asg.h", "asg_isotropic", "ulp");
     test_rng rng = {125 + test_seed};
     int i;
-    for (i = 0; i < 20000; i++) {
+    for (i = 0; i < test_draws(20000); i++) {
         double z[3], inputs[2], wanted;
         asg_lobe a;
         sg_lobe g;
@@ -460,7 +460,7 @@ static void sg_integrals_sharp_limit(void) {
     test_bound xu = test_bound_of("asg.h", "asg_sg_integral_xu", "directional");
     test_rng rng = {105 + test_seed};
     int i;
-    for (i = 0; i < 20000; i++) {
+    for (i = 0; i < test_draws(20000); i++) {
         double z[3], axis[3], inputs[4], wanted, e, lx = test_log_uniform(&rng, 1, 1e3);
         double ly = test_log_uniform(&rng, 1, 1e3), lg = test_log_uniform(&rng, bound.low, bound.high), unit;
         asg_lobe a;
@@ -747,7 +747,7 @@ static void xu_needs_no_eigenvectors(void) {
     test_bound bound = test_bound_of("asg.h", "asg_product_integral_xu", "eigenvectors");
     test_rng rng = {121 + test_seed};
     int i, k;
-    for (i = 0; i < 20000; i++) {
+    for (i = 0; i < test_draws(20000); i++) {
         double z[3], other[3], l[4], inputs[5], wanted, mean, smallest = test_log_uniform(&rng, bound.low, 1e4);
         asg_lobe a, b;
         for (k = 0; k < 4; k++) {
@@ -840,7 +840,7 @@ static void convolve_widens(void) {
     test_bound bound = test_bound_of("asg.h", "asg_convolve", "rel");
     test_rng rng = {109 + test_seed};
     int i;
-    for (i = 0; i < 20000; i++) {
+    for (i = 0; i < test_draws(20000); i++) {
         double z[3], inputs[3], sx, sy, wanted, fx, fy;
         asg_lobe a, b;
         test_direction(&rng, z);
@@ -1262,7 +1262,7 @@ static void specular_rounds(void) {
     test_bound bound = test_bound_of("asg.h", "asg_vsgl_specular", "directional");
     test_rng rng = {115 + test_seed};
     int i;
-    for (i = 0; i < 50000; i++) {
+    for (i = 0; i < 2 * test_draws(25000); i++) {
         double inputs[3], wanted, exponent, co, distance = test_log_uniform(&rng, 1e-3, 1e4);
         double variance = i % 3 ? test_log_uniform(&rng, 1e-20, 1e6) : 0, alpha = test_log_uniform(&rng, 0.01, 1);
         shading s = make_shading(&rng, distance, variance, alpha, i % 2 ? 1 : 3);

@@ -208,7 +208,7 @@ static void sg_weights_match(void) {
     test_bound power = bound_of("bilateral_sg_tap_power", "similarity");
     test_bound row = bound_of("bilateral_sg_taps", "similarity");
     int k;
-    for (k = 0; k < test_draws(200000); k++) {
+    for (k = 0; k < 2 * test_draws(100000); k++) {
         int half = 1 + pick(15);
         double beta = k % 2 ? 2 * half : (double)(float)log_uniform(1e-3, 1e3), inputs[9], wanted, size;
         sg_lobe i = random_lobe(bound.low, bound.high), j = other_lobe(i, bound.low, bound.high, beta);
@@ -305,9 +305,9 @@ static mixture other_mixture(const mixture *i, vec axis, double low, double high
         for (l = 0; l < m.count; l++) {
             double angle = log_uniform(1e-5, 0.5), ratio = pick(2) ? 1 : log_uniform(0.9, 1.1);
             other = unit(wide(m.lobe[l].axis));
-            m.lobe[l] = lobe_of(turned(combine(-1, other, 0, other), angle),
-                                fmin(fmax((double)m.lobe[l].sharpness * ratio, low), high),
-                                (double)m.lobe[l].log_amplitude);
+            m.lobe[l] =
+                lobe_of(turned(combine(-1, other, 0, other), angle),
+                        fmin(fmax((double)m.lobe[l].sharpness * ratio, low), high), (double)m.lobe[l].log_amplitude);
         }
         return m;
     default:
@@ -384,7 +384,7 @@ static void mixtures_match(void) {
     test_bound dropped = bound_of("bilateral_sg_mixture_tap", "dropped");
     test_bound wide_lobes = bound_of("bilateral_sg_mixture_tap", "wide");
     int k;
-    for (k = 0; 20 * k < test_draws(2000000); k++) { /* nine pairs of lobes each */
+    for (k = 0; 10 * k < test_draws(1000000); k++) { /* nine pairs of lobes each */
         double inputs[2 * MOST_LOBES + 1], log_q, unit_of_q, beta = (double)(float)log_uniform(1e-3, 1e3);
         double low = k % 3 ? bound.low : 16, high = k % 3 == 1 ? 20 : k % 3 == 2 ? bound.high : tap.high;
         vec axis = random_direction();
@@ -435,7 +435,7 @@ static void mixtures_match(void) {
 static void opposed_lobes_match(void) {
     test_bound bound = bound_of("bilateral_sg_mixture_tap", "opposed");
     int k;
-    for (k = 0; k < 20000; k++) {
+    for (k = 0; k < test_draws(20000); k++) {
         double l = (double)(float)log_uniform(bound.low, bound.high), q;
         sg_lobe i = lobe_of(random_direction(), l, 0), j = i;
         bilateral_sg_part a, b;
@@ -635,7 +635,7 @@ static void merged_lobes_match(void) {
     test_bound sharpness = bound_of("bilateral_merge", "sharpness"), axis = bound_of("bilateral_merge", "axis");
     test_bound integral = bound_of("bilateral_merge", "integral"), model = bound_of("bilateral_merge", "model");
     int k;
-    for (k = 0; k < 40000; k++) {
+    for (k = 0; k < test_draws(40000); k++) {
         double inputs[2 * MOST_LOBES], lengths[MOST_LOBES], whole = 0, lost = 0, sum = 0, wanted;
         double low = k % 2 ? model.low : sharpness.low, high = k % 2 ? model.high : sharpness.high;
         vec direction = random_direction(), mean = combine(0, direction, 0, direction), exact_mean = mean;
@@ -775,7 +775,7 @@ static void history_adds_up(void) {
     test_bound bound = bound_of("bilateral_history_share", "ulp");
     double mean = 0, count = 0;
     int k;
-    for (k = 0; k < 20000; k++) {
+    for (k = 0; k < test_draws(20000); k++) {
         double inputs[3], old, wanted;
         inputs[0] = (double)(float)uniform(), inputs[1] = (double)(float)log_uniform(1e-3, 1e3);
         inputs[2] = (double)(float)log_uniform(1e-3, 1e3);

@@ -10,7 +10,7 @@ const char *test_root = ".";
 int test_verbose, test_quiet;
 int test_repeat = 1;
 double test_slack = 1;
-int test_most = 1 << 30;
+int test_least, test_most = 1 << 30;
 unsigned long long test_seed;
 const char *test_files;
 static int failures; /* of the running test */
@@ -90,7 +90,7 @@ int test_is_finite(float value) {
 }
 
 int test_draws(int count) {
-    return count < test_most ? count : test_most;
+    return count < test_least ? test_least : count < test_most ? count : test_most;
 }
 
 int test_run(const test_case *test) {

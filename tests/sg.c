@@ -302,7 +302,7 @@ static void test_integral(void) {
 static void test_normalize(void) {
     test_bound bound = test_bound_of("sg.h", "sg_normalize", "rel");
     int i;
-    for (i = 0; i < 50000; i++) {
+    for (i = 0; i < test_draws(50000); i++) {
         sg_lobe g, n;
         begin();
         g = lobe_of(random_axis(), log_uniform(bound.low, bound.high), uniform(-50, 50));
@@ -634,7 +634,7 @@ static void test_cosine_integral(void) {
         check_cosine(&wide_lobes, &approx, 1e-30, angle);
         check_cosine(&sharp, &approx, 1e10, angle);
     }
-    for (i = 0; i < 20000; i++) { /* beyond the stated range */
+    for (i = 0; i < test_draws(20000); i++) { /* beyond the stated range */
         begin();
         check_cosine(i % 2 ? &wide_lobes : &sharp, &approx, i % 2 ? log_uniform(1e-12, 1e-3) : log_uniform(1e6, 1e30),
                      uniform(0, PI));
@@ -681,7 +681,7 @@ static void test_toksvig(void) {
     test_bound inverse = test_bound_of("sg.h", "sg_sharpness_from_mean_length", "ulp");
     test_bound round_trip = test_bound_of("sg.h", "sg_sharpness_from_mean_length", "round_trip");
     int i;
-    for (i = 0; i < 50000; i++) {
+    for (i = 0; i < test_draws(50000); i++) {
         double l, wanted, r;
         begin();
         l = log_uniform(mean.low, mean.high);
@@ -811,7 +811,7 @@ static void test_moments(void) {
     test_bound add = test_bound_of("sg.h", "vsgl_moments_add", "rel");
     test_bound scale = test_bound_of("sg.h", "vsgl_moments_scale", "rel");
     int i, k;
-    for (i = 0; i < 20000; i++) {
+    for (i = 0; i < test_draws(20000); i++) {
         vpl p;
         vsgl_moments m, n, sum, scaled;
         double weight, squared, s;
@@ -1145,7 +1145,7 @@ static void test_vsl(void) {
     test_bound solid_angle = test_bound_of("sg.h", "vsl_lobe", "solid_angle");
     test_bound cosine = test_bound_of("sg.h", "vsl_lobe", "cosine");
     int i;
-    for (i = 0; i < 50000; i++) {
+    for (i = 0; i < test_draws(50000); i++) {
         lobe_vec3 center, point;
         double radius, d, s, c, l, cone;
         sg_lobe g;
@@ -1275,7 +1275,7 @@ static void test_vsgl_diffuse(void) {
     test_bound integral = test_bound_of("sg.h", "vsgl_diffuse_integral", "conditioned");
     test_bound cosine_model = test_bound_of("sg.h", "sg_cosine_integral", "abs");
     int i;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_draws(200000); i++) {
         lit_point s = draw_lit_point();
         incoming in = exact_incoming(s);
         double got = (double)vsgl_diffuse(s.light, s.component, s.point, s.normal);
@@ -1284,7 +1284,7 @@ static void test_vsgl_diffuse(void) {
         if (is_singular(s)) continue;
         if (in.lobe.sharpness > 0) unit_of_error *= in.lobe.sum / in.lobe.sharpness; /* how uncertain the axis is */
         within(&bound, got, overhead * fmax(0, cosine), unit_of_error);
-        if (i % 8 == 0) {
+        if (i % 8 == 0 || test_least) {
             double wanted =
                 overhead * (s.light.variance > 0 ? exact_cosine(in.lobe.sharpness, cosine) : fmax(0, cosine));
             got = (double)vsgl_diffuse_integral(s.light, s.component, s.point, s.normal);

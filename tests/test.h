@@ -56,9 +56,9 @@ int test_run(const test_case *test);
 extern const char *test_root; /* where the headers are */
 extern int test_verbose, test_quiet;
 extern unsigned long long test_seed;
-extern int test_most;
+extern int test_least, test_most;
 
-/* The count, or fewer where even a few are enough: for tests of a million draws. */
+/* The count, but within these: shaders are asked about as often for each function. */
 int test_draws(int count);
 extern double test_slack; /* what limits of rounding are multiplied by: 1, more for shaders */
 

@@ -467,7 +467,7 @@ int main(int argc, char **argv) {
     const char *wanted = NULL, *name = "";
     int passed = 0, failed = 0, i;
     test_files = argv[0];
-    test_most = ENOUGH + ENOUGH / 20; /* some draws are alike */
+    test_least = test_most = ENOUGH + ENOUGH / 20; /* some draws are alike */
     for (i = 1; i < argc; i++) {
         if (!strcmp(argv[i], "--help")) {
             usage(stdout);
