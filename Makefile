@@ -46,7 +46,7 @@ help:
 	@echo 'make fuzz            SECONDS=60 of random files for each reader, by clang with its libFuzzer'
 	@echo 'make test-shaders    compiles the shaders in both languages and runs them on a Vulkan device, by the same unit tests'
 	@echo 'make hlsl            makes the HLSL shaders anew from the GLSL ones'
-	@echo 'make setup           installs the Debian packages that shaders and reports take'
+	@echo 'make setup           installs the Debian packages that shaders take'
 	@echo 'make clean           deletes $(BUILD)/'
 	@echo 'make help            prints this'
 	@echo
