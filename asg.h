@@ -1,5 +1,5 @@
 /*
- asg.h - anisotropic spherical Gaussians and the specular light of virtual SG lights, version 0.1.0
+ asg.h - anisotropic spherical Gaussians and the specular light of virtual SG lights, version 1.0.0
 
    #include "asg.h"
 
@@ -41,6 +41,12 @@
 */
 #ifndef LOBE_ASG_H
 #define LOBE_ASG_H
+
+#ifndef LOBE_VERSION
+#define LOBE_VERSION 10000 /* 10000 major + 100 minor + patch */
+#elif LOBE_VERSION != 10000
+#error "headers of different versions of Lobe"
+#endif
 
 #include "sg.h"
 

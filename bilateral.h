@@ -1,5 +1,5 @@
 /*
- bilateral.h - weights of filters and upsamplers that know the surfaces' reflection lobes, version 0.1.0
+ bilateral.h - weights of filters and upsamplers that know the surfaces' reflection lobes, version 1.0.0
 
    #include "bilateral.h"
 
@@ -59,6 +59,12 @@
 */
 #ifndef LOBE_BILATERAL_H
 #define LOBE_BILATERAL_H
+
+#ifndef LOBE_VERSION
+#define LOBE_VERSION 10000 /* 10000 major + 100 minor + patch */
+#elif LOBE_VERSION != 10000
+#error "headers of different versions of Lobe"
+#endif
 
 #include "asg.h"
 

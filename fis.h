@@ -1,5 +1,5 @@
 /*
- fis.h - filtered importance sampling of 2D images, and their division into cells of equal mass, version 0.1.0
+ fis.h - filtered importance sampling of 2D images, and their division into cells of equal mass, version 1.0.0
 
    #include "fis.h"
 
@@ -51,6 +51,12 @@
 */
 #ifndef LOBE_FIS_H
 #define LOBE_FIS_H
+
+#ifndef LOBE_VERSION
+#define LOBE_VERSION 10000 /* 10000 major + 100 minor + patch */
+#elif LOBE_VERSION != 10000
+#error "headers of different versions of Lobe"
+#endif
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /*
- ggx_bound.h - GGX reflection, and the volumes that bound its light in stochastic light culling, version 0.1.0
+ ggx_bound.h - GGX reflection, and the volumes that bound its light in stochastic light culling, version 1.0.0
 
    #include "ggx_bound.h"
 
@@ -72,6 +72,12 @@
 */
 #ifndef LOBE_GGX_BOUND_H
 #define LOBE_GGX_BOUND_H
+
+#ifndef LOBE_VERSION
+#define LOBE_VERSION 10000 /* 10000 major + 100 minor + patch */
+#elif LOBE_VERSION != 10000
+#error "headers of different versions of Lobe"
+#endif
 
 #include "sg.h"
 

@@ -1,5 +1,5 @@
 /*
- sg.h - spherical Gaussians and virtual spherical Gaussian lights, version 0.1.0
+ sg.h - spherical Gaussians and virtual spherical Gaussian lights, version 1.0.0
 
    #include "sg.h"
 
@@ -64,6 +64,12 @@
 */
 #ifndef LOBE_SG_H
 #define LOBE_SG_H
+
+#ifndef LOBE_VERSION
+#define LOBE_VERSION 10000 /* 10000 major + 100 minor + patch */
+#elif LOBE_VERSION != 10000
+#error "headers of different versions of Lobe"
+#endif
 
 #include <math.h>
 #include <string.h>
