@@ -47,6 +47,7 @@ help:
 	@echo 'make test-shaders    compiles the shaders in both languages and runs them on a Vulkan device, by the same unit tests'
 	@echo 'make hlsl            makes the HLSL shaders anew from the GLSL ones'
 	@echo 'make setup           installs the Debian packages that shaders take'
+	@echo 'make pictures        the README'\''s pictures anew, by netpbm and gnuplot'
 	@echo 'make clean           deletes $(BUILD)/'
 	@echo 'make help            prints this'
 	@echo
@@ -112,11 +113,12 @@ headers: $(BUILD)/flags
 vectors: $(BUILD)/flags
 	@sh tests/compile/vectors.sh $(CC) $(BUILD)
 
-# The README's first block of C, as printed.
+# What the README and the other pages say.
 readme: $(BUILD)/flags
-	@awk '/^```/ { if (inside) exit; inside = /^```c$$/; next } inside' README.md > $(BUILD)/readme.c
-	@$(CC) -std=c99 $(WARN) -Werror -I. $(BUILD)/readme.c -o $(BUILD)/readme -lm
-	@$(BUILD)/readme > /dev/null && echo "ok     snippet of the README"
+	@sh tests/compile/readme.sh $(CC) $(BUILD)
+
+pictures: $(EXAMPLES:%=$(BUILD)/%)
+	sh examples/images/make.sh $(BUILD)
 
 # Shaders. Those of glsl/ are the source, those of hlsl/ are made from them by `make hlsl`.
 GLSL = examples/shaders/glsl
