@@ -5,12 +5,15 @@
  Errors are those of the filtered colour against the same sums in double, largest over some pixels.
 */
 #include "filter.h"
+#include "csv.h"
 #include "../exact_asg.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { FORMS = 12, CHECKED = 6 };
+enum { FORMS = 12, CHECKED = 6, TIMED_ROWS = 2 };
+
+#define INPUTS "17 x 17 taps of kernel, depth and lobe, three channels; beta %d"
 
 FILTER_DECLARE(our_eq4);
 FILTER_DECLARE(our_eq12_even);
@@ -30,13 +33,13 @@ FILTER_DECLARE(printed_eq11);
 enum { EQ4_OPERATIONS = 28 };
 
 typedef struct {
-    const char *name;
-    filter_loop *scalar, *vector;
+    const char *name, *loop;
+    filter_loop *scalar, *vector, *counted;
     int equation, both;
 } filter_form;
 
 #define FORM(text, name, equation, both)                                                                               \
-    { text, name##_scalar, name##_vector, equation, both }
+    { text, #name, name##_scalar, name##_vector, BENCH_COUNTED(name), equation, both }
 
 static const filter_form forms[FORMS] = {
     FORM("Eq. 4", our_eq4, 4, 0),
@@ -221,42 +224,80 @@ static double error_of(const filter_form *form) {
 
 /* ---- times ---- */
 
-/* Form f scalar is 2 f, vector 2 f + 1, as loops over the rows; then the peak of multiply-adds. */
-static void run_form(int which) {
-    static float values[FILTER_PEAK_LANES];
+static void run_rows(filter_loop *run) {
     int y;
-    if (which == 2 * FORMS) {
-        filter_peak_vector(values);
-        return;
-    }
-    for (y = FILTER_RADIUS; y < FILTER_RADIUS + FILTER_ROWS; y++) {
-        filter_loop *run = which % 2 ? forms[which / 2].vector : forms[which / 2].scalar;
+    for (y = FILTER_RADIUS; y < FILTER_RADIUS + TIMED_ROWS; y++) {
         run(&image, &kernel, y * FILTER_WIDTH + FILTER_RADIUS, FILTER_BETA, &sums);
     }
 }
 
+/* Form f scalar is 2 f, vector 2 f + 1, as loops over the rows; then the peak of multiply-adds. */
+static void run_form(int which) {
+    static float values[FILTER_PEAK_LANES];
+    if (which == 2 * FORMS)
+        filter_peak_vector(values);
+    else
+        run_rows(which % 2 ? forms[which / 2].vector : forms[which / 2].scalar);
+}
+
+/* Of run_rows: a weight for two pixels is two taps */
+static double taps_of(const filter_form *form) {
+    return (form->both ? 2 * (FILTER_TAPS / 2) : FILTER_TAPS) * FILTER_ROW * TIMED_ROWS;
+}
+
 void bilateral_filter_bench(void) {
-    double times[2 * FORMS + 1], bound;
+    bench_time times[2 * FORMS + 1];
+    double bound, eq4 = 0;
     int f;
     draw_image();
     memset(&sums, 0, sizeof sums);
-    bench_medians(run_form, 2 * FORMS + 1, times);
+    bench_times(run_form, 2 * FORMS + 1, times);
+    printf("bilateral_filter: " INPUTS "; errors of colours, and of weights relative\n", FILTER_BETA);
+    printf("  %-34s %9s %9s %5s %7s %10s\n", "ns for each tap", "scalar", "vector", "+-%", "/ Eq. 4", "max error");
     for (f = 0; f < FORMS; f++) {
-        const int taps = forms[f].both ? 2 * (FILTER_TAPS / 2) : FILTER_TAPS; /* a weight for two pixels is two taps */
-        times[2 * f] *= 1e9 / (taps * FILTER_ROW * FILTER_ROWS);
-        times[2 * f + 1] *= 1e9 / (taps * FILTER_ROW * FILTER_ROWS);
+        const double scale = 1e9 / taps_of(&forms[f]), error = error_of(&forms[f]);
+        const bench_time scalar = times[2 * f], vector = times[2 * f + 1];
+        char inputs[128];
+        if (f == 0) eq4 = vector.median * scale;
+        printf("  %-34s %9.3f %9.3f %5.1f %7.2f %10.3g\n", forms[f].name, scalar.median * scale, vector.median * scale,
+               bench_spread(vector), vector.median * scale / eq4, error);
+        snprintf(inputs, sizeof inputs, INPUTS, FILTER_BETA);
+        bench_function_row("bilateral.h", "bilateral_filter", forms[f].name, strncmp(forms[f].loop, "printed", 7) != 0,
+                           inputs, "1 of colours, weights relative");
+        csv_error(CSV_FUNCTIONS, error);
+        csv_none(CSV_FUNCTIONS, 1);
+        csv_times(CSV_FUNCTIONS, scalar, scale);
+        csv_times(CSV_FUNCTIONS, vector, scale);
+        csv_end_row(CSV_FUNCTIONS);
     }
-    bound = EQ4_OPERATIONS * times[2 * FORMS] * 1e9 / (FILTER_PEAK_STEPS * FILTER_PEAK_LANES);
-    printf("bilateral_filter: 17 x 17 taps of kernel, depth and lobe, three channels; beta %d; errors of colours, and "
-           "of weights relative\n",
-           FILTER_BETA);
-    printf("  %-34s %9s %9s %7s %10s\n", "ns for each tap", "scalar", "vector", "/ Eq. 4", "max error");
-    for (f = 0; f < FORMS; f++) {
-        printf("  %-34s %9.3f %9.3f %7.2f %10.3g\n", forms[f].name, times[2 * f], times[2 * f + 1],
-               times[2 * f + 1] / times[1], error_of(&forms[f]));
-    }
+    bound = EQ4_OPERATIONS * times[2 * FORMS].median * 1e9 / FILTER_PEAK_OPERATIONS;
     printf("  Eq. 4's bound, %d operations at the measured peak of multiply-adds: %.3f ns; it reaches %.0f %%\n\n",
-           EQ4_OPERATIONS, bound, 100 * bound / times[1]);
+           EQ4_OPERATIONS, bound, 100 * bound / eq4);
+}
+
+/* ---- for limits.c ---- */
+
+int filter_prepare(void) {
+    int f = 0;
+    draw_image();
+    memset(&sums, 0, sizeof sums);
+    while (f < FORMS && strncmp(forms[f].loop, "printed", 7)) f++;
+    return f;
+}
+
+const char *filter_name(int form) {
+    return forms[form].name;
+}
+
+double filter_run(int form) {
+    run_rows(forms[form].vector);
+    return taps_of(&forms[form]);
+}
+
+double filter_count(int form) {
+    if (!forms[form].counted) return 0;
+    run_rows(forms[form].counted);
+    return taps_of(&forms[form]);
 }
 
 /* ---- Fig. 4 of 004 ---- */
