@@ -1,5 +1,7 @@
-/* The bounds that headers state, as tests and bench read them. */
+/* The bounds that headers state and their unit, as tests and bench read them. */
 #include "test.h"
+#include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,4 +32,10 @@ int test_read_bound(const char *header, const char *function, const char *kind, 
     }
     fclose(file);
     return found;
+}
+
+double test_ulp(double value) {
+    float magnitude = (float)fabs(value);
+    if (magnitude < FLT_MIN) return (double)FLT_MIN * (double)FLT_EPSILON;
+    return (double)nextafterf(magnitude, INFINITY) - (double)magnitude;
 }

@@ -1,6 +1,5 @@
 /* The unit tests' harness: bounds, checks, one test's run. */
 #include "test.h"
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -54,12 +53,6 @@ void test_that(int condition, const char *what, const double *inputs, int count)
 void test_report(const test_bound *bound) {
     if (test_verbose && !test_quiet)
         printf("    %-40s worst %-10.4g limit %.4g\n", bound->label, bound->worst, bound->limit);
-}
-
-double test_ulp(double value) {
-    float magnitude = (float)fabs(value);
-    if (magnitude < FLT_MIN) return (double)FLT_MIN * (double)FLT_EPSILON;
-    return (double)nextafterf(magnitude, INFINITY) - (double)magnitude;
 }
 
 int test_is_finite(float value) {
