@@ -2,6 +2,7 @@
 #include "csv.h"
 #include "../../examples/common/fail.h"
 #include "../../examples/common/file.h"
+#include <stdlib.h>
 #include <string.h>
 
 enum { PATH = 1024 };
@@ -23,10 +24,21 @@ static struct {
 } files[CSV_FILES];
 static int writing;
 
+/* What an early end leaves unfinished */
+static void drop(void) {
+    int k;
+    for (k = 0; k < CSV_FILES; k++) {
+        if (!files[k].begun) continue;
+        fclose(files[k].out.stream);
+        remove(files[k].out.part);
+    }
+}
+
 void csv_begin(const char *folder) {
     int k;
     if (!folder) return;
     writing = 1;
+    atexit(drop);
     for (k = 0; k < CSV_FILES; k++) {
         const char *wrong;
         if (strlen(folder) + strlen(kinds[k].name) + 2 > PATH) give_up(folder, "the path is too long");
@@ -87,6 +99,7 @@ void csv_end(void) {
     int k;
     for (k = 0; k < CSV_FILES; k++) {
         const char *wrong = files[k].begun ? file_end(&files[k].out) : NULL;
+        files[k].begun = 0;
         if (wrong) give_up(files[k].path, wrong);
     }
 }

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FORMS = 12, CHECKED = 6, TIMED_ROWS = 2 };
+enum { FORMS = 12, CHECKED = 6 };
 
 #define INPUTS "17 x 17 taps of kernel, depth and lobe, three channels; beta %d"
 
@@ -184,14 +184,13 @@ static int checked_pixel(int k) {
            k * (FILTER_ROW - 2 * FILTER_RADIUS) / CHECKED;
 }
 
-/* Three channels and the weights of a pixel, over all taps or, with both, over all but its own */
-static void exact_sums(int equation, int i, int own, double out[4]) {
+/* Three channels and the weights of a pixel, over all taps */
+static void exact_sums(int equation, int i, double out[4]) {
     int t, c;
     for (c = 0; c < 4; c++) out[c] = 0;
     for (t = 0; t < FILTER_TAPS; t++) {
         const int j = i + kernel.offset[t];
         double d = (double)image.plane[PLANE_RAW_DEPTH][i] - (double)image.plane[PLANE_RAW_DEPTH][j], w;
-        if (i == j && !own) continue;
         w = exp2((double)kernel.exponent[t]) * exp(-d * d / (2 * (double)FILTER_DEPTH_VARIANCE)) *
             exact_lobe_weight(equation, i, j);
         for (c = 0; c < 3; c++) out[c] += w * (double)image.plane[PLANE_COLOUR + c][j];
@@ -200,8 +199,8 @@ static void exact_sums(int equation, int i, int own, double out[4]) {
 }
 
 static double error_of(const filter_form *form) {
-    static double wanted[14][2][CHECKED][4];
-    static int known[14][2];
+    static double wanted[14][CHECKED][4];
+    static int known[14];
     double worst = 0;
     int y, k, c, count = form->equation == 13 ? 2 : CHECKED;
     memset(&sums, 0, sizeof sums);
@@ -209,40 +208,41 @@ static double error_of(const filter_form *form) {
         form->vector(&image, &kernel, y * FILTER_WIDTH + FILTER_RADIUS, FILTER_BETA, &sums);
     }
     for (k = 0; k < count; k++) {
-        double *exact = wanted[form->equation][form->both][k];
+        double exact[4];
         const int i = checked_pixel(k);
-        if (!known[form->equation][form->both]) exact_sums(form->equation, i, !form->both, exact);
+        if (!known[form->equation]) exact_sums(form->equation, i, wanted[form->equation][k]);
+        for (c = 0; c < 4; c++) { /* pairs leave out the pixel itself, whose weight is 1 */
+            exact[c] = wanted[form->equation][k][c];
+            if (form->both) exact[c] -= c < 3 ? (double)image.plane[PLANE_COLOUR + c][i] : 1;
+        }
         for (c = 0; c < 3; c++) {
             double got = (double)sums.sum[c][i] / (double)sums.sum[3][i];
             worst = fmax(worst, fabs(got - exact[c] / exact[3]));
         }
         worst = fmax(worst, fabs((double)sums.sum[3][i] / exact[3] - 1));
     }
-    known[form->equation][form->both] = 1;
+    known[form->equation] = 1;
     return worst;
 }
 
 /* ---- times ---- */
 
-static void run_rows(filter_loop *run) {
-    int y;
-    for (y = FILTER_RADIUS; y < FILTER_RADIUS + TIMED_ROWS; y++) {
-        run(&image, &kernel, y * FILTER_WIDTH + FILTER_RADIUS, FILTER_BETA, &sums);
-    }
+static void run_row(filter_loop *run) {
+    run(&image, &kernel, FILTER_RADIUS * FILTER_WIDTH + FILTER_RADIUS, FILTER_BETA, &sums);
 }
 
-/* Form f scalar is 2 f, vector 2 f + 1, as loops over the rows; then the peak of multiply-adds. */
+/* Form f scalar is 2 f, vector 2 f + 1, on one row; then the peak of multiply-adds. */
 static void run_form(int which) {
     static float values[FILTER_PEAK_LANES];
     if (which == 2 * FORMS)
         filter_peak_vector(values);
     else
-        run_rows(which % 2 ? forms[which / 2].vector : forms[which / 2].scalar);
+        run_row(which % 2 ? forms[which / 2].vector : forms[which / 2].scalar);
 }
 
-/* Of run_rows: a weight for two pixels is two taps */
+/* Of run_row: a weight for two pixels is two taps */
 static double taps_of(const filter_form *form) {
-    return (form->both ? 2 * (FILTER_TAPS / 2) : FILTER_TAPS) * FILTER_ROW * TIMED_ROWS;
+    return (form->both ? 2 * (FILTER_TAPS / 2) : FILTER_TAPS) * FILTER_ROW;
 }
 
 void bilateral_filter_bench(void) {
@@ -290,13 +290,13 @@ const char *filter_name(int form) {
 }
 
 double filter_run(int form) {
-    run_rows(forms[form].vector);
+    run_row(forms[form].vector);
     return taps_of(&forms[form]);
 }
 
 double filter_count(int form) {
     if (!forms[form].counted) return 0;
-    run_rows(forms[form].counted);
+    run_row(forms[form].counted);
     return taps_of(&forms[form]);
 }
 

@@ -220,6 +220,11 @@ int main(int argc, char **argv) {
         fprintf(stderr, "bench: no function's name contains '%s'\n", wanted);
         return 2;
     }
+    if (jobs[job_count - 1].print == hard_cases_bench) { /* says now if there are no headers to read bounds from */
+        test_bound bound;
+        int of_model;
+        test_read_bound("sg.h", "sg_eval", "conditioned", &bound, &of_model);
+    }
     csv_begin(folder);
     line = progress_begin("bench", job_count);
     for (i = 0; i < job_count; i++) {
