@@ -53,7 +53,7 @@ COUNTED_OPERATOR(*, 0)
 COUNTED_OPERATOR(/, 1)
 
 #define COUNTED_COMPARISON(sign)                                                                                       \
-    inline bool operator sign(counted a, counted b) {                                                                  \
+    inline int operator sign(counted a, counted b) {                                                                   \
         return a.value sign b.value;                                                                                   \
     }
 COUNTED_COMPARISON(<)

@@ -213,6 +213,7 @@ void hard_asg(void) {
     weigh("sharpness 1e10, axes 1e-7 apart", sg_off(0, 1e10), sg_off(1e-7, 1e10), 20);
     weigh("sharpness 1e10 and 2e10, axes 5e-6 apart", sg_off(0, 1e10), sg_off(5e-6, 2e10), 20);
     turn_round("the same, the other way round", sg_off(0, 1e10), sg_off(5e-6, 2e10), 20);
+    weigh("sharpness 1e10 and 1, opposed, beta 1", sg_off(0, 1e10), sg_off(REFERENCE_PI, 1), 1);
     weigh("sharpness 1e10, opposed", sg_off(0, 1e10), sg_off(REFERENCE_PI, 1e10), 20);
     weigh("sharpness 1e-8, opposed", sg_off(0, 1e-8), sg_off(REFERENCE_PI, 1e-8), 20);
     weigh_asgs("sharpness 1e8 and 1e6, the same lobe twice", "model", sharp, sharp);

@@ -32,7 +32,7 @@ static const char *const hot[HOT] = {"our_eval",
                                      "our_ggx_brdf_cos",
                                      "our_ggx_bound_ellipsoid"};
 
-static const struct { const bench_row *rows; } tables[] = {{sg_bench}, {asg_bench}, {ggx_bound_bench}};
+static const bench_row *const tables[] = {sg_bench, asg_bench, ggx_bound_bench};
 
 static const bench_form *form_of[HOT];
 static bench_input in[HOT];
@@ -44,7 +44,7 @@ static void find(int k) {
     size_t table;
     for (table = 0; table < sizeof tables / sizeof *tables; table++) {
         const bench_row *row;
-        for (row = tables[table].rows; row->function; row++) {
+        for (row = tables[table]; row->function; row++) {
             const bench_form *form;
             for (form = row->form; form->name && !form_of[k]; form++) {
                 if (strcmp(form->loop, hot[k])) continue;
@@ -145,4 +145,5 @@ void limits_bench(void) {
         print(name, "memory", "byte", l.bytes, l.nanoseconds, l.peak);
     }
     printf("\n");
+    fflush(stdout);
 }
