@@ -68,11 +68,21 @@ $(BUILD)/tests: $(TESTS) examples/common/file.c $(wildcard tests/*.h examples/co
 # compilers default to, which contracts a * b + c.
 BENCH_COMPILE = $(CC) -std=gnu99 $(WARN) -O3 $(NATIVE)
 BENCH_LOOPS = $(wildcard tests/bench/*_loops.c)
-BENCH_SOURCES = $(filter-out $(BENCH_LOOPS),$(wildcard tests/bench/*.c)) tests/random.c
-BENCH_OBJECTS = $(BENCH_LOOPS:tests/bench/%.c=$(BUILD)/%_scalar.o) $(BENCH_LOOPS:tests/bench/%.c=$(BUILD)/%_vector.o)
+BENCH_SOURCES = $(filter-out $(BENCH_LOOPS),$(wildcard tests/bench/*.c)) tests/random.c tests/bounds.c \
+                $(addprefix examples/common/,fail.c file.c progress.c)
+BENCH_KINDS = scalar vector $(BENCH_COUNTED)
+BENCH_OBJECTS = $(foreach kind,$(BENCH_KINDS),$(BENCH_LOOPS:tests/bench/%.c=$(BUILD)/%_$(kind).o))
 
-$(BUILD)/bench: $(BENCH_SOURCES) $(BENCH_OBJECTS)
-	$(COMPILE) $^ -o $@ -lm
+# Where the compiler knows C++, a third time, as code that counts its floating-point operations.
+ifeq ($(filter help clean,$(MAKECMDGOALS)),)
+BENCH_COUNTED := $(shell $(CC) -x c++ -std=c++17 -include math.h -fsyntax-only /dev/null 2>/dev/null && echo counted)
+endif
+
+$(BUILD)/bench: $(BENCH_SOURCES) $(BENCH_OBJECTS) $(wildcard tests/*.h tests/bench/*.h examples/common/*.h) $(HEADERS)
+	$(COMPILE) $(BENCH_COUNTED:counted=-DBENCH_HAS_COUNTED) $(BENCH_SOURCES) $(BENCH_OBJECTS) -o $@ -lm
+
+$(BUILD)/%_counted.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEADERS) $(BUILD)/flags
+	$(CC) -x c++ -std=c++17 -O1 -fno-exceptions -include tests/bench/counted.h -c $< -o $@
 
 $(BUILD)/%_vector.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEADERS) $(BUILD)/flags
 	$(BENCH_COMPILE) -c $< -o $@

@@ -26,6 +26,9 @@ typedef struct {
 /* The tag of one function and kind in a header; a missing tag fails the test and gives a limit of 0. */
 test_bound test_bound_of(const char *header, const char *function, const char *kind);
 
+/* The same as the header has it; returns whether it has. of_model: the tag is one of a model, not of rounding. */
+int test_read_bound(const char *header, const char *function, const char *kind, test_bound *bound, int *of_model);
+
 /* Fails when |got - wanted| > limit * unit, or when got is not finite. The inputs are printed on failure. */
 void test_within(test_bound *bound, double got, double wanted, double unit, const double *inputs, int count);
 
