@@ -1,0 +1,116 @@
+/* Virtual SG lights from an RSM or a G-buffer: against texels and against lights. */
+#include "growth.h"
+#include "../../examples/common/fail.h"
+#include "../../examples/common/vsgl_generate.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { SUBJECTS = 3, TEXEL_SIZES = 5, LIGHT_SIZES = 7, RSM_SIZE = 512, LIGHTS = 64 };
+static const method methods[SUBJECTS] = {METHOD_FAST, METHOD_SPLIT, METHOD_KMEANS_2D};
+static const char *const names[SUBJECTS] = {"filtered sampling", "cells of equal mass", "k-means"};
+static const int edges[TEXEL_SIZES] = {128, 224, 400, 720, 1280};
+static const int light_counts[LIGHT_SIZES] = {10, 30, 100, 300, 1000, 3000, 10000};
+
+/* A map with its PDF, and room for lights of it */
+typedef struct {
+    vpl_map map;
+    float *pdf;
+    generator g;
+    light_set set;
+} source;
+
+static source source_of(buffer *seen, vec3 center, int most) {
+    source s;
+    int i;
+    s.map = vpl_map_create(seen, center);
+    s.pdf = (float *)allocate("PDF", (size_t)(seen->width * seen->height), sizeof *s.pdf);
+    s.g = generator_create(seen->width, seen->height, most);
+    s.set = light_set_create(most);
+    for (i = 0; i < seen->width * seen->height; i++) s.pdf[i] = vpl_weight(&s.map.texels[i]);
+    buffer_free(seen);
+    return s;
+}
+
+static void free_source(source *s) {
+    free(s->map.texels);
+    free(s->pdf);
+    generator_free(&s->g);
+    light_set_free(&s->set);
+}
+
+static void generate(const source *from, int subject, int count) {
+    source s = *from;
+    s.set.count = count;
+    vsgl_generate(&s.g, &s.map, s.pdf, methods[subject], 1, 0, &s.set);
+}
+
+static void run_texels(void *of, int subject, int which) {
+    generate((source *)of + which, subject, LIGHTS);
+}
+
+static void run_lights(void *of, int subject, int which) {
+    generate((source *)of, subject, light_counts[which]);
+}
+
+static void measure_texels(growth_report *to, const scene *world) {
+    source sources[TEXEL_SIZES];
+    growth g = growth_of("texels", run_texels, sources);
+    int i;
+    for (i = 0; i < SUBJECTS; i++) g.subjects[i] = names[i];
+    for (i = 0; i < TEXEL_SIZES; i++) {
+        buffer seen = buffer_rsm(world, edges[i]);
+        sources[i] = source_of(&seen, world->center, LIGHTS);
+        g.sizes[i] = edges[i] * edges[i];
+    }
+    snprintf(g.fixed, sizeof g.fixed, "VSGL generation: %d VSGLs of an RSM", LIGHTS);
+    growth_measure(to, &g);
+    for (i = 0; i < TEXEL_SIZES; i++) free_source(&sources[i]);
+}
+
+/* The number of lights at which the time exceeds that of the fewest by 10 %, between the sizes by the straight line */
+static double tenth_more(const growth *g, int subject) {
+    const growth_time *t = g->times[subject];
+    const double limit = 1.1 * t[0].median;
+    int i;
+    for (i = 1; g->sizes[i] > 0; i++) {
+        if (t[i].median > limit)
+            return g->sizes[i - 1] +
+                   (g->sizes[i] - g->sizes[i - 1]) * fmax(limit - t[i - 1].median, 0) / (t[i].median - t[i - 1].median);
+    }
+    return HUGE_VAL;
+}
+
+static void print_independence(const growth *g) {
+    int subject;
+    for (subject = 0; g->subjects[subject]; subject++) {
+        const double most = tenth_more(g, subject);
+        if (most < HUGE_VAL)
+            printf("%s: at most 10 %% more than for %.0f lights up to %.2g\n", g->subjects[subject], g->sizes[0], most);
+        else
+            printf("%s: at most 10 %% more than for %.0f lights for all\n", g->subjects[subject], g->sizes[0]);
+    }
+    fflush(stdout);
+}
+
+static void measure_lights(growth_report *to, buffer *seen, vec3 center, const char *kind, int subjects) {
+    const int width = seen->width, height = seen->height;
+    source s = source_of(seen, center, light_counts[LIGHT_SIZES - 1]);
+    growth g = growth_of("lights", run_lights, &s);
+    int i;
+    for (i = 0; i < subjects; i++) g.subjects[i] = names[i];
+    for (i = 0; i < LIGHT_SIZES; i++) g.sizes[i] = light_counts[i];
+    snprintf(g.fixed, sizeof g.fixed, "VSGL generation: %s of %dx%d texels", kind, width, height);
+    growth_measure(to, &g);
+    print_independence(&g);
+    free_source(&s);
+}
+
+void growth_generation(growth_report *to) {
+    const scene world = scene_room();
+    buffer seen = buffer_rsm(&world, RSM_SIZE);
+    measure_lights(to, &seen, world.center, "an RSM", SUBJECTS);
+    seen = buffer_camera(&world, 1920, 1088);
+    measure_lights(to, &seen, world.center, "a G-buffer", 1);
+    measure_texels(to, &world);
+}
