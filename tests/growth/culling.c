@@ -6,10 +6,10 @@
 #undef main
 #undef program_name
 
-enum { SIZES = 6, SUBJECTS = 3, TILE = 16, FEWER_PIXELS = 16 };
-static const volume shapes[SUBJECTS] = {AT_LIGHT, SPHEROID, ELLIPSOID};
-static const char *const shape_names[SUBJECTS] = {"culling by sphere at VPL", "culling by spheroid",
-                                                  "culling by ellipsoid"};
+enum { SIZES = 6, VOLUMES_TIMED = 3, UNSHADED = VOLUMES_TIMED, SUBJECTS, TILE = 16 };
+static const volume shapes[VOLUMES_TIMED] = {AT_LIGHT, SPHEROID, ELLIPSOID};
+static const char *const names[SUBJECTS] = {"culling by sphere at VPL", "culling by spheroid", "culling by ellipsoid",
+                                            "by ellipsoid; unshaded"};
 static const int rsm_edges[SIZES] = {24, 40, 64, 104, 160, 256};
 static const int widths[SIZES] = {64, 104, 160, 256, 400, 640}; /* heights: 3/4 */
 
@@ -25,34 +25,35 @@ typedef struct {
     light_list lists[SIZES][KINDS];
     volume_list volumes[KINDS];
     kept_lights kept[KINDS];
-    int view; /* the one that VPLs are counted for */
+    int view, rsm; /* what is fixed */
 } context;
 
-static void cull_and_shade(const context *c, int view, int rsm, volume which) {
+static void bound_and_cull(context *c, int view, int rsm, volume which) {
     const light_list *lists = c->lists[rsm];
-    volume_list volumes[KINDS];
-    kept_lights kept[KINDS];
     int kind;
-    for (kind = 0; kind < KINDS; kind++) {
-        volumes[kind] = c->volumes[kind];
-        kept[kind] = c->kept[kind];
-    }
     for (kind = 0; kind < KINDS; kind++)
-        bound_lights(&lists[kind], (light_kind)kind, which, DELTA, &c->frame, &volumes[kind]);
+        bound_lights(&lists[kind], (light_kind)kind, which, DELTA, &c->frame, &c->volumes[kind]);
     for (kind = 0; kind < KINDS; kind++)
-        cull(c->tiles[view], c->tile_counts[view], &lists[kind], &volumes[kind], 0, &kept[kind]);
+        cull(c->tiles[view], c->tile_counts[view], &lists[kind], &c->volumes[kind], 0, &c->kept[kind]);
+}
+
+static void run(context *c, int view, int rsm, int subject) {
+    int kind;
+    bound_and_cull(c, view, rsm, subject == UNSHADED ? ELLIPSOID : shapes[subject]);
+    if (subject == UNSHADED) return;
     clear_sums(c->tiles[view], c->tile_counts[view]);
     for (kind = 0; kind < KINDS; kind++)
-        shade(c->tiles[view], c->tile_counts[view], &lists[kind], (light_kind)kind, &kept[kind], DELTA);
+        shade(c->tiles[view], c->tile_counts[view], &c->lists[rsm][kind], (light_kind)kind, &c->kept[kind], DELTA);
 }
 
 static void run_lights(void *of, int subject, int which) {
-    const context *c = (context *)of;
-    cull_and_shade(c, c->view, which, shapes[subject]);
+    context *c = (context *)of;
+    run(c, c->view, which, subject);
 }
 
 static void run_pixels(void *of, int subject, int which) {
-    cull_and_shade((context *)of, which, SIZES - 1, shapes[subject]);
+    context *c = (context *)of;
+    run(c, which, c->rsm, subject);
 }
 
 static void run_all(void *of, int subject, int which) {
@@ -90,7 +91,7 @@ static double shaded_of(const context *c, int view) {
 static void count_all(context *c, growth *g) {
     int i, k;
     for (i = 0; i < SIZES; i++) {
-        for (k = 0; k < SUBJECTS; k++) {
+        for (k = 0; k < VOLUMES_TIMED; k++) {
             g->run(c, k, i);
             g->shaded[k][i] = shaded_of(c, g->run == run_pixels ? i : c->view);
         }
@@ -131,29 +132,41 @@ static void release(context *c) {
     free(c->few);
 }
 
+/* With the most VPLs */
+static void compare_per_pixel(const context *c, const growth *culled, const growth *all) {
+    const int last = SIZES - 1, by = 2;
+    const double each = culled->times[by][last].median / pixels_of(c->tiles[c->view], c->tile_counts[c->view]);
+    const double every = all->times[0][last].median / pixels_of(c->few, c->few_count);
+    printf("%.0f VPLs take %.3g us a pixel, %.3g %s: %.0f times less\n", all->sizes[last], 1e3 * every, 1e3 * each,
+           culled->subjects[by], every / each);
+    fflush(stdout);
+}
+
 void growth_culling(growth_report *to) {
     const scene world = scene_ring(ALPHA);
     context c;
-    growth lights = growth_of("VPLs", run_lights, &c), pixels = growth_of("pixels", run_pixels, &c);
-    growth all = growth_of("VPLs", run_all, &c);
+    growth lights = growth_of("Light culling", "VPLs", run_lights, &c),
+           pixels = growth_of("Light culling", "pixels", run_pixels, &c);
+    growth all = growth_of("Every VPL at every pixel", "VPLs", run_all, &c);
     int i;
     prepare(&c, &world);
-    c.view = to->quick ? SIZES - 3 : SIZES - 1;
-    for (i = 0; i < SUBJECTS; i++) lights.subjects[i] = pixels.subjects[i] = shape_names[i];
-    all.subjects[0] = "every VPL at every pixel";
+    c.view = c.rsm = to->quick ? SIZES - 3 : SIZES - 1;
+    for (i = 0; i < SUBJECTS; i++) lights.subjects[i] = pixels.subjects[i] = names[i];
+    all.subjects[0] = "all VPLs";
     for (i = 0; i < SIZES; i++) {
         lights.sizes[i] = all.sizes[i] = rsm_edges[i] * rsm_edges[i];
         pixels.sizes[i] = widths[i] * (3 * widths[i] / 4);
     }
-    snprintf(lights.fixed, sizeof lights.fixed, "Light culling: %.0f pixels; alpha %g; delta %g", pixels.sizes[c.view],
-             (double)ALPHA, (double)DELTA);
-    snprintf(pixels.fixed, sizeof pixels.fixed, "Light culling: %.0f VPLs; alpha %g; delta %g", lights.sizes[SIZES - 1],
-             (double)ALPHA, (double)DELTA);
-    snprintf(all.fixed, sizeof all.fixed, "No light culling: %.0f pixels", pixels_of(c.few, c.few_count));
+    snprintf(lights.fixed, sizeof lights.fixed, "%.0f pixels; alpha %g; delta %g", pixels.sizes[c.view], (double)ALPHA,
+             (double)DELTA);
+    snprintf(pixels.fixed, sizeof pixels.fixed, "%.0f VPLs; alpha %g; delta %g", lights.sizes[c.rsm], (double)ALPHA,
+             (double)DELTA);
+    snprintf(all.fixed, sizeof all.fixed, "%.0f pixels", pixels_of(c.few, c.few_count));
     count_all(&c, &lights);
     count_all(&c, &pixels);
     growth_measure(to, &lights);
     growth_measure(to, &all);
+    compare_per_pixel(&c, &lights, &all);
     growth_measure(to, &pixels);
     release(&c);
 }

@@ -38,12 +38,12 @@ static void prepare(context *c) {
 
 void growth_filter(growth_report *to) {
     context c;
-    growth pixels = growth_of("pixels", run_pixels, &c);
+    growth pixels = growth_of("Cross bilateral filter", "pixels", run_pixels, &c);
     int i;
     prepare(&c);
     pixels.subjects[0] = "filter by Eq. 12";
     for (i = 0; i < SIZES; i++) pixels.sizes[i] = widths[i] * (3 * widths[i] / 4);
-    snprintf(pixels.fixed, sizeof pixels.fixed, "Cross bilateral filter: %d taps", FILTER_TAPS);
+    snprintf(pixels.fixed, sizeof pixels.fixed, "%d taps", FILTER_TAPS);
     growth_measure(to, &pixels);
     for (i = 0; i < SIZES; i++) {
         frame_free(&c.frames[i]);

@@ -8,7 +8,7 @@
 
 enum { SUBJECTS = 3, TEXEL_SIZES = 5, LIGHT_SIZES = 7, RSM_SIZE = 512, LIGHTS = 64 };
 static const method methods[SUBJECTS] = {METHOD_FAST, METHOD_SPLIT, METHOD_KMEANS_2D};
-static const char *const names[SUBJECTS] = {"filtered sampling", "cells of equal mass", "k-means"};
+static const char *const names[SUBJECTS + 1] = {"filtered sampling", "cells of equal mass", "k-means", NULL};
 static const int edges[TEXEL_SIZES] = {128, 224, 400, 720, 1280};
 static const int light_counts[LIGHT_SIZES] = {10, 30, 100, 300, 1000, 3000, 10000};
 
@@ -55,7 +55,7 @@ static void run_lights(void *of, int subject, int which) {
 
 static void measure_texels(growth_report *to, const scene *world) {
     source sources[TEXEL_SIZES];
-    growth g = growth_of("texels", run_texels, sources);
+    growth g = growth_of("VSGL generation", "texels", run_texels, sources);
     int i;
     for (i = 0; i < SUBJECTS; i++) g.subjects[i] = names[i];
     for (i = 0; i < TEXEL_SIZES; i++) {
@@ -63,7 +63,7 @@ static void measure_texels(growth_report *to, const scene *world) {
         sources[i] = source_of(&seen, world->center, LIGHTS);
         g.sizes[i] = edges[i] * edges[i];
     }
-    snprintf(g.fixed, sizeof g.fixed, "VSGL generation: %d VSGLs of an RSM", LIGHTS);
+    snprintf(g.fixed, sizeof g.fixed, "%d VSGLs", LIGHTS);
     growth_measure(to, &g);
     for (i = 0; i < TEXEL_SIZES; i++) free_source(&sources[i]);
 }
@@ -93,24 +93,26 @@ static void print_independence(const growth *g) {
     fflush(stdout);
 }
 
-static void measure_lights(growth_report *to, buffer *seen, vec3 center, const char *kind, int subjects) {
+static void measure_lights(growth_report *to, buffer *seen, vec3 center, const char *const *subjects) {
     const int width = seen->width, height = seen->height;
     source s = source_of(seen, center, light_counts[LIGHT_SIZES - 1]);
-    growth g = growth_of("lights", run_lights, &s);
+    growth g = growth_of("VSGL generation", "lights", run_lights, &s);
     int i;
-    for (i = 0; i < subjects; i++) g.subjects[i] = names[i];
+    for (i = 0; subjects[i]; i++) g.subjects[i] = subjects[i];
     for (i = 0; i < LIGHT_SIZES; i++) g.sizes[i] = light_counts[i];
-    snprintf(g.fixed, sizeof g.fixed, "VSGL generation: %s of %dx%d texels", kind, width, height);
+    snprintf(g.fixed, sizeof g.fixed, "%dx%d texels", width, height);
     growth_measure(to, &g);
     print_independence(&g);
     free_source(&s);
 }
 
 void growth_generation(growth_report *to) {
+    static const char *const of_view[] = {"filtered sampling (G-buffer)", NULL};
     const scene world = scene_room();
-    buffer seen = buffer_rsm(&world, RSM_SIZE);
-    measure_lights(to, &seen, world.center, "an RSM", SUBJECTS);
-    seen = buffer_camera(&world, 1920, 1088);
-    measure_lights(to, &seen, world.center, "a G-buffer", 1);
+    const int part = to->quick ? 2 : 1;
+    buffer seen = buffer_rsm(&world, RSM_SIZE / part);
+    measure_lights(to, &seen, world.center, names);
+    seen = buffer_camera(&world, 1920 / part, 1088 / part); /* the paper's */
+    measure_lights(to, &seen, world.center, of_view);
     measure_texels(to, &world);
 }

@@ -15,7 +15,7 @@ typedef struct {
 } growth_time;
 
 typedef struct {
-    const char *axis;                                   /* what grows: lights, pixels, texels, taps or VPLs */
+    const char *title, *axis;                           /* of what; what grows: lights, pixels, texels, taps or VPLs */
     char fixed[128];                                    /* what does not; without commas */
     const char *subjects[GROWTH_SUBJECTS + 1];          /* closed by null */
     double sizes[GROWTH_SIZES + 1];                     /* closed by 0 */
@@ -32,7 +32,8 @@ typedef struct {
 } growth_report;
 
 /* Without subjects and sizes */
-growth growth_of(const char *axis, void (*run)(void *context, int subject, int which), void *context);
+growth growth_of(const char *title, const char *axis, void (*run)(void *context, int subject, int which),
+                 void *context);
 
 /* Times, prints, and puts it into the report. */
 void growth_measure(growth_report *to, growth *g);

@@ -31,9 +31,12 @@ static double time_runs(const growth *g, int subject, int which, int runs) {
 }
 
 static int find_runs(const growth *g, int subject, int which) {
+    double elapsed = time_runs(g, subject, which, 1); /* touches the memory */
     int runs = 1;
-    time_runs(g, subject, which, 1); /* touches the memory */
-    while (runs < 1 << 20 && runs * time_runs(g, subject, which, runs) < SHORTEST) runs *= 2;
+    while (elapsed < SHORTEST && runs < 1 << 20) {
+        runs *= 2;
+        elapsed = runs * time_runs(g, subject, which, runs);
+    }
     return runs;
 }
 
@@ -41,7 +44,7 @@ static void find_times(const growth_report *to, growth *g) {
     static double samples[GROWTH_SUBJECTS][GROWTH_SIZES][MOST_ROUNDS];
     const int subjects = count_subjects(g), sizes = count_sizes(g);
     int runs[GROWTH_SUBJECTS][GROWTH_SIZES], round, subject, i;
-    progress line = progress_begin(g->subjects[0], (to->rounds + 1) * subjects * sizes);
+    progress line = progress_begin(g->title, (to->rounds + 1) * subjects * sizes);
     for (round = -1; round < to->rounds; round++) {
         for (i = 0; i < sizes; i++) {
             for (subject = 0; subject < subjects; subject++) {
@@ -95,13 +98,13 @@ static power_law fit(const double *sizes, const double *values, int count) {
 
 static void print_laws(const growth *g) {
     const int subjects = count_subjects(g), sizes = count_sizes(g);
-    power_law laws[GROWTH_SUBJECTS], shaded[GROWTH_SUBJECTS];
+    power_law laws[GROWTH_SUBJECTS], shaded[GROWTH_SUBJECTS] = {{0, 0}};
     int subject, i;
     for (subject = 0; subject < subjects; subject++) {
         double medians[GROWTH_SIZES] = {0};
         for (i = 0; i < sizes; i++) medians[i] = g->times[subject][i].median;
         laws[subject] = fit(g->sizes, medians, sizes);
-        shaded[subject] = fit(g->sizes, g->shaded[subject], sizes);
+        if (g->shaded[subject][0] > 0) shaded[subject] = fit(g->sizes, g->shaded[subject], sizes);
     }
     printf("exponent");
     for (subject = 0; subject < subjects; subject++) {
@@ -118,7 +121,7 @@ static void print_laws(const growth *g) {
 
 static void print_table(const growth *g) {
     int subject, i;
-    printf("\n%s\n%8s", g->fixed, "");
+    printf("\n%s against %s; %s\n%8s", g->title, g->axis, g->fixed, "");
     for (subject = 0; g->subjects[subject]; subject++)
         printf("  %*s", g->shaded[subject][0] > 0 ? 36 : 27, g->subjects[subject]);
     printf("\n%8s", g->axis);
@@ -138,9 +141,11 @@ static void print_table(const growth *g) {
     fflush(stdout);
 }
 
-growth growth_of(const char *axis, void (*run)(void *context, int subject, int which), void *context) {
+growth growth_of(const char *title, const char *axis, void (*run)(void *context, int subject, int which),
+                 void *context) {
     growth g;
     memset(&g, 0, sizeof g);
+    g.title = title;
     g.axis = axis;
     g.run = run;
     g.context = context;

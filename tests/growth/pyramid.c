@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 enum { SIZES = 5, SUBJECTS = 3, CHANNELS = 16 };
-static const int edges[SIZES] = {64, 128, 256, 512, 1024};
+static const int edges[SIZES] = {128, 224, 400, 720, 1280};
 
 typedef struct {
     float *image, *pyramid; /* for the largest with all channels */
@@ -25,7 +25,7 @@ static void run(void *of, int subject, int which) {
 void growth_pyramid(growth_report *to) {
     const size_t most = (size_t)edges[SIZES - 1] * (size_t)edges[SIZES - 1] * CHANNELS;
     context c;
-    growth g = growth_of("texels", run, &c);
+    growth g = growth_of("Pyramids", "texels", run, &c);
     size_t i;
     c.image = (float *)allocate("pyramid", most, sizeof *c.image);
     c.pyramid =
@@ -35,7 +35,7 @@ void growth_pyramid(growth_report *to) {
     g.subjects[1] = "fis_build of 16 channels";
     g.subjects[2] = "fis_build_pdf";
     for (i = 0; i < SIZES; i++) g.sizes[i] = edges[i] * edges[i];
-    snprintf(g.fixed, sizeof g.fixed, "Pyramids: all levels of a square");
+    snprintf(g.fixed, sizeof g.fixed, "square images");
     growth_measure(to, &g);
     free(c.image);
     free(c.pyramid);

@@ -53,7 +53,8 @@ static void prepare(context *c) {
 
 void growth_shading(growth_report *to) {
     context c;
-    growth lights = growth_of("lights", run_lights, &c), pixels = growth_of("pixels", run_pixels, &c);
+    growth lights = growth_of("VSGL shading", "lights", run_lights, &c),
+           pixels = growth_of("VSGL shading", "pixels", run_pixels, &c);
     int i;
     prepare(&c);
     c.view = to->quick ? 0 : 1;
@@ -62,8 +63,8 @@ void growth_shading(growth_report *to) {
         lights.sizes[i] = light_counts[i];
         pixels.sizes[i] = edges[i] * edges[i];
     }
-    snprintf(lights.fixed, sizeof lights.fixed, "VSGL shading: %.0f pixels; no shadows", pixels.sizes[c.view]);
-    snprintf(pixels.fixed, sizeof pixels.fixed, "VSGL shading: %d VSGLs; no shadows", light_counts[0]);
+    snprintf(lights.fixed, sizeof lights.fixed, "%.0f pixels; no shadows", pixels.sizes[c.view]);
+    snprintf(pixels.fixed, sizeof pixels.fixed, "%d VSGLs; no shadows", light_counts[0]);
     growth_measure(to, &lights);
     growth_measure(to, &pixels);
     for (i = 0; i < SIZES; i++) {
