@@ -237,7 +237,8 @@ static void compare_filter(work *w, gpu *device, const settings *o) {
     const scene world = scene_gallery();
     frame f = frame_of(&world, &tiles, o->size.width, o->size.height);
     image noisy = shade_frame(&f, SAMPLES, (unsigned)o->seed, 0, "noisy light");
-    filter_planes *planes = filter_planes_create(f.width, f.height, filter_most_parts(f.guides, f.width * f.height));
+    filter_planes *planes =
+        filter_planes_create(f.width, f.height, filter_most_parts(f.guides, f.width * f.height), FILTER_RADIUS);
     filter_task task;
     int i;
     filter_fill_colours(planes, &noisy);

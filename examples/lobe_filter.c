@@ -76,7 +76,7 @@ static void study_begin(study *s, const subject *what, int width, int height, in
     s->noisy = shade_frame(&s->f, samples, seed, 0, what->name);
     s->wanted = truth_of(&s->f, reference, seed, what->name);
     s->result = image_create(width, height);
-    s->room = filter_planes_create(width, height, filter_most_parts(s->f.guides, width * height));
+    s->room = filter_planes_create(width, height, filter_most_parts(s->f.guides, width * height), FILTER_RADIUS);
     filter_fill_colours(s->room, &s->noisy);
 }
 
@@ -917,7 +917,7 @@ static void filter_buffers(const settings *o) {
     free(depth.values);
     free(normals.values);
     free(alphas.values);
-    room = filter_planes_create(noisy.width, noisy.height, 1);
+    room = filter_planes_create(noisy.width, noisy.height, 1, FILTER_RADIUS);
     result = image_create(noisy.width, noisy.height);
     filter_fill_colours(room, &noisy);
     filter_fill_planes(room, guides, FILTER_EQ12, &o->beta, o->depth_variance);

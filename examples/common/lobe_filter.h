@@ -6,7 +6,8 @@
 #include "glossy.h"
 #include "image.h"
 
-/* Of all filters: weights of distance in the image are the same, and those of depth in the scenes. */
+/* Of all filters: weights of distance in the image are the same, and those of depth in the scenes. The radius is what is
+   usual: planes may have another. */
 enum { FILTER_RADIUS = 8, FILTER_TAPS = (2 * FILTER_RADIUS + 1) * (2 * FILTER_RADIUS + 1) };
 static const float filter_kernel_variance = 16, filter_depth_variance = 0.1f;
 
@@ -34,16 +35,16 @@ typedef enum {
 } filter_method;
 
 /* Guides and colours as planes with a border, so that the loops over them become vector code. Guides of one method at a
-   time; parts: the most lobes of a pixel. */
+   time; parts: the most lobes of a pixel; radius: of the kernels, in pixels. */
 typedef struct filter_planes filter_planes;
-filter_planes *filter_planes_create(int width, int height, int parts);
+filter_planes *filter_planes_create(int width, int height, int parts, int radius);
 void filter_planes_free(filter_planes *p);
 
 int filter_most_parts(const guide *guides, int count);
 
 void filter_fill_colours(filter_planes *p, const image *noisy);
 
-/* All rows, by all threads, or one: those from -FILTER_RADIUS to FILTER_RADIUS below the picture are needed. */
+/* All rows, by all threads, or one: those from -radius to the radius below the picture are needed. */
 void filter_fill_planes(const filter_planes *p, const guide *guides, filter_method m, const float *parameter,
                         float depth_variance);
 void filter_fill_row(const filter_planes *p, const guide *guides, filter_method m, const float *parameter,
