@@ -8,21 +8,19 @@
 #ifndef GROWTH_H
 #define GROWTH_H
 
+#include "../../examples/common/progress.h"
+
 enum { GROWTH_SIZES = 8, GROWTH_SUBJECTS = 4, GROWTH_MOST = 16 };
 
 typedef struct {
-    double low, median, high; /* milliseconds; the outer ones are quartiles */
-} growth_time;
-
-typedef struct {
     const char *title, *axis;                           /* of what; what grows: lights, pixels, texels, taps or VPLs */
-    char fixed[128];                                    /* what does not; without commas */
+    char fixed[128];                                    /* what does not */
     const char *subjects[GROWTH_SUBJECTS + 1];          /* closed by null */
     double sizes[GROWTH_SIZES + 1];                     /* closed by 0 */
     double shaded[GROWTH_SUBJECTS][GROWTH_SIZES];       /* lights per pixel; 0: not counted */
     void (*run)(void *context, int subject, int which); /* at which of the sizes */
     void *context;
-    growth_time times[GROWTH_SUBJECTS][GROWTH_SIZES]; /* found by growth_measure */
+    quartiles times[GROWTH_SUBJECTS][GROWTH_SIZES]; /* milliseconds; found by growth_measure */
 } growth;
 
 typedef struct {

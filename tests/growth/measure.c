@@ -1,5 +1,4 @@
 #include "growth.h"
-#include "../../examples/common/progress.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -58,13 +57,7 @@ static void find_times(const growth_report *to, growth *g) {
     }
     progress_end(&line);
     for (subject = 0; subject < subjects; subject++) {
-        for (i = 0; i < sizes; i++) {
-            double *sample = samples[subject][i];
-            growth_time *time = &g->times[subject][i];
-            time->median = progress_median(sample, to->rounds); /* sorts */
-            time->low = sample[to->rounds / 4];
-            time->high = sample[to->rounds - 1 - to->rounds / 4];
-        }
+        for (i = 0; i < sizes; i++) g->times[subject][i] = progress_quartiles(samples[subject][i], to->rounds);
     }
 }
 
@@ -131,7 +124,7 @@ static void print_table(const growth *g) {
     for (i = 0; g->sizes[i] > 0; i++) {
         printf("%8.0f", g->sizes[i]);
         for (subject = 0; g->subjects[subject]; subject++) {
-            const growth_time *t = &g->times[subject][i];
+            const quartiles *t = &g->times[subject][i];
             printf("  %9.4g %8.4g %8.4g", t->median, t->low, t->high);
             if (g->shaded[subject][0] > 0) printf(" %8.2f", g->shaded[subject][i]);
         }
