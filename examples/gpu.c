@@ -224,7 +224,7 @@ static void compare_filter(work *w, gpu *device, const settings *o) {
     frame f = frame_of(&world, &tiles, o->size.width, o->size.height);
     image noisy = shade_frame(&f, SAMPLES, (unsigned)o->seed, 0, "noisy light");
     filter_planes *planes =
-        filter_planes_create(f.width, f.height, filter_most_parts(f.guides, f.width * f.height), FILTER_RADIUS);
+        filter_planes_create(f.width, f.height, FILTER_RADIUS, filter_most_parts(f.guides, f.width * f.height));
     filter_task task;
     int i;
     filter_fill_colours(planes, &noisy);

@@ -72,14 +72,14 @@ enum {
 };
 
 struct filter_planes {
-    int width, height, radius, stride;
+    int width, height, stride, radius;
     int parts;                     /* most lobes of a pixel */
     float *memory, *plane[PLANES]; /* at the first pixel: the border is before it */
 };
 
 typedef filter_planes planes;
 
-filter_planes *filter_planes_create(int width, int height, int parts, int radius) {
+filter_planes *filter_planes_create(int width, int height, int radius, int parts) {
     planes *p = (planes *)allocate("images", 1, sizeof *p);
     size_t size;
     int k;
@@ -319,7 +319,7 @@ void filter_row(const planes *p, filter_method m, const float *parameter, int ro
             for (x = -p->radius; x <= p->radius; x++) {
                 t.j = t.i + (ptrdiff_t)y * p->stride + x;
                 t.squared = (float)(x * x + y * y);
-                t.exponent = -0.5f * LOBE_LOG2E / filter_kernel_variance * t.squared;
+                t.exponent = -0.5f * LOBE_LOG2E / filter_kernel_variance(p->radius) * t.squared;
                 weigh(p, &t, m, parameter, weight);
                 gather(p, &t, weight, sum[0], sum[1], sum[2], sum[3]);
             }
