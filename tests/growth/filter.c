@@ -30,7 +30,7 @@ static picture picture_of(int width, int radius) {
     picture p;
     image noisy;
     p.seen = frame_of(&world, &tiles, width, height);
-    p.planes = filter_planes_create(width, height, 1, radius);
+    p.planes = filter_planes_create(width, height, radius, 1);
     p.smooth = image_create(width, height);
     noisy = shade_frame(&p.seen, 1, 0, 0, "noisy light");
     filter_fill_colours(p.planes, &noisy);
@@ -51,10 +51,6 @@ static int pixels_of(int width) {
     return width * (3 * width / 4);
 }
 
-static int taps_of(int radius) {
-    return (2 * radius + 1) * (2 * radius + 1);
-}
-
 void growth_filter(growth_report *to) {
     picture pictures[SIZES];
     growth pixels = growth_of("Cross bilateral filter", "pixels", run, pictures);
@@ -63,9 +59,9 @@ void growth_filter(growth_report *to) {
     pixels.subjects[0] = taps.subjects[0] = "filter by Eq. 12";
     for (i = 0; i < SIZES; i++) {
         pixels.sizes[i] = pixels_of(widths[i]);
-        taps.sizes[i] = taps_of(radii[i]);
+        taps.sizes[i] = filter_taps(radii[i]);
     }
-    snprintf(pixels.fixed, sizeof pixels.fixed, "%d taps", taps_of(FILTER_RADIUS));
+    snprintf(pixels.fixed, sizeof pixels.fixed, "%d taps", filter_taps(FILTER_RADIUS));
     snprintf(taps.fixed, sizeof taps.fixed, "%d pixels", pixels_of(widths[VIEW]));
     for (i = 0; i < SIZES; i++) pictures[i] = picture_of(widths[i], FILTER_RADIUS);
     growth_measure(to, &pixels);
