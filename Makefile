@@ -90,6 +90,13 @@ $(BUILD)/%_vector.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEA
 $(BUILD)/%_scalar.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEADERS) $(BUILD)/flags
 	$(BENCH_COMPILE) -DBENCH_SCALAR -fno-tree-vectorize -fno-tree-slp-vectorize -c $< -o $@
 
+# Time against size. Without threads, so that what is timed is one of them, and not what others take from it. culling.c
+# includes examples/light_culling.c, for its stages.
+GROWTH = $(wildcard tests/growth/*.c) $(COMMON)
+
+$(BUILD)/growth: $(GROWTH) examples/light_culling.c $(wildcard tests/growth/*.h examples/common/*.h) $(HEADERS) $(BUILD)/flags
+	$(COMPILE) $(GROWTH) -o $@ -lm
+
 # Each of tests/fuzz for some seconds, from the files that a script beside it makes. What it learns stays in BUILD/fuzz.
 FUZZ_CC = $(if $(findstring clang,$(CC)),$(CC),clang)
 FUZZ_FLAGS = -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all

@@ -80,18 +80,19 @@ static void add_light(light_list *list, int *count, const texel *t, vec3 reflect
     ++*count;
 }
 
-/* Every 8th texel of every 8th row makes a subset. */
+/* Every 8th texel of every 8th row makes a subset. The edges of the RSM are multiples of 8, RSM_SIZE at most. */
 static void make_lights(const buffer *rsm, unsigned seed, light_list lists[KINDS]) {
+    const int side = rsm->width / INTERLEAVE;
     int kind, subset, i;
     for (kind = 0; kind < KINDS; kind++) {
         light_list *list = &lists[kind];
         int count = 0;
-        list->lights = (vpl *)allocate("scene", RSM_SIZE * RSM_SIZE, sizeof *list->lights);
+        list->lights = (vpl *)allocate("scene", (size_t)(rsm->width * rsm->height), sizeof *list->lights);
         for (subset = 0; subset < SUBSETS; subset++) {
             list->first[subset] = count;
-            for (i = 0; i < SUBSET_LIGHTS; i++) {
-                int side = RSM_SIZE / INTERLEAVE, row = i / side * INTERLEAVE + subset / INTERLEAVE;
-                int column = i % side * INTERLEAVE + subset % INTERLEAVE, index = row * RSM_SIZE + column;
+            for (i = 0; i < side * side; i++) {
+                int row = i / side * INTERLEAVE + subset / INTERLEAVE;
+                int column = i % side * INTERLEAVE + subset % INTERLEAVE, index = row * rsm->width + column;
                 const texel *t = &rsm->texels[index];
                 if (t->valid)
                     add_light(list, &count, t, kind == DIFFUSE ? t->hit.look.diffuse : t->hit.look.specular,
