@@ -69,7 +69,7 @@ $(BUILD)/tests: $(TESTS) examples/common/file.c $(wildcard tests/*.h examples/co
 BENCH_COMPILE = $(CC) -std=gnu99 $(WARN) -O3 $(NATIVE)
 BENCH_LOOPS = $(wildcard tests/bench/*_loops.c)
 BENCH_SOURCES = $(filter-out $(BENCH_LOOPS),$(wildcard tests/bench/*.c)) tests/random.c tests/bounds.c \
-                $(addprefix examples/common/,fail.c file.c progress.c)
+                $(addprefix examples/common/,csv.c fail.c file.c image.c output.c progress.c)
 BENCH_KINDS = scalar vector $(BENCH_COUNTED)
 BENCH_OBJECTS = $(foreach kind,$(BENCH_KINDS),$(BENCH_LOOPS:tests/bench/%.c=$(BUILD)/%_$(kind).o))
 

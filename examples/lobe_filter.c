@@ -463,17 +463,17 @@ static void add_row(csv *table, const char *name, const result_row *r) {
         if (k < d->parameters)
             csv_error(table, (double)r->best[k]);
         else
-            csv_skip(table);
+            csv_skip(table, 1);
     }
     if (d->parameters == 1)
         csv_error(table, r->shared_error);
     else
-        csv_skip(table);
+        csv_skip(table, 1);
     if (d->parameters > 0) {
         csv_quartiles(table, r->ms);
         csv_number(table, r->ms.median / filter_taps(r->radius));
     } else { /* nothing is done */
-        for (k = 0; k < 4; k++) csv_skip(table);
+        csv_skip(table, 4);
     }
     csv_row(table);
 }

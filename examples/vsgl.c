@@ -459,7 +459,7 @@ static void error_or_none(csv *table, int known, double value) {
     if (known)
         csv_error(table, value);
     else
-        csv_skip(table);
+        csv_skip(table, 1);
 }
 
 static void add_row(csv *table, const row *r, pdf_kind kind, const quartiles ms[RENDER_STAGES]) {

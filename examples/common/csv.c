@@ -65,8 +65,8 @@ void csv_quartiles(csv *table, quartiles times) {
     csv_number(table, times.high);
 }
 
-void csv_skip(csv *table) {
-    append_field(table, "");
+void csv_skip(csv *table, int count) {
+    while (count-- > 0) append_field(table, "");
 }
 
 void csv_row(csv *table) {

@@ -21,7 +21,7 @@ void csv_count(csv *table, long count);
 void csv_number(csv *table, double value);
 void csv_error(csv *table, double value);        /* with more digits */
 void csv_quartiles(csv *table, quartiles times); /* three fields */
-void csv_skip(csv *table);                       /* there is no such number */
+void csv_skip(csv *table, int count);             /* there are no such numbers */
 
 void csv_row(csv *table);
 

@@ -9,6 +9,7 @@
 #ifndef BENCH_H
 #define BENCH_H
 
+#include "../../examples/common/progress.h"
 #include "../test.h"
 
 enum { BENCH_COUNT = 4096, BENCH_INPUTS = 24, BENCH_OUTPUTS = 8, BENCH_FORMS = 12, BENCH_RUNS = 40 };
@@ -56,16 +57,11 @@ void limits_bench(void);
 void hard_cases_bench(void);
 extern int hard_cases_failed;
 
-/* Seconds: median and quartiles of the repetitions */
-typedef struct {
-    double median, low, high;
-} bench_time;
-
-/* Of run(0) to run(count - 1), interleaved; count is at most BENCH_RUNS. */
-void bench_times(void (*run)(int which), int count, bench_time *seconds);
+/* Seconds of run(0) to run(count - 1), interleaved; count is at most BENCH_RUNS. */
+void bench_times(void (*run)(int which), int count, quartiles *seconds);
 
 /* Half the distance between the quartiles, in percent of the median */
-double bench_spread(bench_time seconds);
+double bench_spread(quartiles seconds);
 
 /* Inputs of a row for each element */
 void bench_draw(const bench_row *row, bench_input *inputs);

@@ -5,7 +5,7 @@
  Errors are those of the filtered colour against the same sums in double, largest over some pixels.
 */
 #include "filter.h"
-#include "csv.h"
+#include "tables.h"
 #include "../exact_asg.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -246,7 +246,7 @@ static double taps_of(const filter_form *form) {
 }
 
 void bilateral_filter_bench(void) {
-    bench_time times[2 * FORMS + 1];
+    quartiles times[2 * FORMS + 1];
     double bound, eq4 = 0;
     int f;
     draw_image();
@@ -256,7 +256,7 @@ void bilateral_filter_bench(void) {
     printf("  %-34s %9s %9s %5s %7s %10s\n", "ns for each tap", "scalar", "vector", "+-%", "/ Eq. 4", "max error");
     for (f = 0; f < FORMS; f++) {
         const double scale = 1e9 / taps_of(&forms[f]), error = error_of(&forms[f]);
-        const bench_time scalar = times[2 * f], vector = times[2 * f + 1];
+        const quartiles scalar = times[2 * f], vector = times[2 * f + 1];
         char inputs[128];
         if (f == 0) eq4 = vector.median * scale;
         printf("  %-34s %9.3f %9.3f %5.1f %7.2f %10.3g\n", forms[f].name, scalar.median * scale, vector.median * scale,
@@ -264,11 +264,11 @@ void bilateral_filter_bench(void) {
         snprintf(inputs, sizeof inputs, INPUTS, FILTER_BETA);
         bench_function_row("bilateral.h", "bilateral_filter", forms[f].name, strncmp(forms[f].loop, "printed", 7) != 0,
                            inputs, "1 of colours, weights relative");
-        csv_error(CSV_FUNCTIONS, error);
-        csv_none(CSV_FUNCTIONS, 1);
-        csv_times(CSV_FUNCTIONS, scalar, scale);
-        csv_times(CSV_FUNCTIONS, vector, scale);
-        csv_end_row(CSV_FUNCTIONS);
+        csv_error(&bench_table[TABLE_FUNCTIONS], error);
+        csv_skip(&bench_table[TABLE_FUNCTIONS], 1);
+        csv_quartiles(&bench_table[TABLE_FUNCTIONS], quartiles_scaled(scalar, scale));
+        csv_quartiles(&bench_table[TABLE_FUNCTIONS], quartiles_scaled(vector, scale));
+        csv_row(&bench_table[TABLE_FUNCTIONS]);
     }
     bound = EQ4_OPERATIONS * times[2 * FORMS].median * 1e9 / FILTER_PEAK_OPERATIONS;
     printf("  Eq. 4's bound, %d operations at the measured peak of multiply-adds: %.3f ns; it reaches %.0f %%\n\n",

@@ -1,5 +1,5 @@
 /* fis.c - the tables of fis.h: kernels by each method, and pyramids beside a loop that only moves as many bytes. */
-#include "csv.h"
+#include "tables.h"
 #include "fis_build.h"
 #include "fis_quality.h"
 #include "../../examples/common/fail.h"
@@ -48,7 +48,7 @@ void fis_level_bench(void) {
     int kind, i;
     for (kind = 0; (image = fis_quality_image(kind, &name)); kind++) {
         fis_quality row[FIS_METHODS];
-        bench_time seconds[FIS_METHODS + 1];
+        quartiles seconds[FIS_METHODS + 1];
         const double scale = 1e9 / FIS_KERNELS;
         fis_quality_of(kind, row);
         pdf = fis_build_pdf(memory, image, FIS_SIDE, FIS_SIDE);
@@ -60,26 +60,26 @@ void fis_level_bench(void) {
         printf("  %-18s %8s %5s %7s %7s %9s %9s %6s %9s %9s %7s\n", "", "ns", "+-%", "/ ours", "texels", "level RMS",
                "max", "gap %", "overlap %", "brightest", "total");
         for (i = 0; i < FIS_METHODS; i++) {
-            csv_text(CSV_FIS, name);
-            csv_text(CSV_FIS, row[i].method);
-            csv_number(CSV_FIS, i == OURS || i == SPLIT);
-            csv_times(CSV_FIS, seconds[i], scale);
-            csv_number(CSV_FIS, row[i].reads);
+            csv_text(&bench_table[TABLE_FIS], name);
+            csv_text(&bench_table[TABLE_FIS], row[i].method);
+            csv_number(&bench_table[TABLE_FIS], i == OURS || i == SPLIT);
+            csv_quartiles(&bench_table[TABLE_FIS], quartiles_scaled(seconds[i], scale));
+            csv_number(&bench_table[TABLE_FIS], row[i].reads);
             printf("  %-18s %8.1f %5.1f %7.2f %7.2f", row[i].method, seconds[i].median * scale,
                    bench_spread(seconds[i]), seconds[i].median / seconds[OURS].median, row[i].reads);
             if (row[i].rms < 0) {
                 printf(" %9s %9s", "-", "-");
-                csv_none(CSV_FIS, 2);
+                csv_skip(&bench_table[TABLE_FIS], 2);
             } else {
                 printf(" %9.2g %9.2g", row[i].rms, row[i].largest);
-                csv_error(CSV_FIS, row[i].rms);
-                csv_error(CSV_FIS, row[i].largest);
+                csv_error(&bench_table[TABLE_FIS], row[i].rms);
+                csv_error(&bench_table[TABLE_FIS], row[i].largest);
             }
-            csv_error(CSV_FIS, row[i].gap);
-            csv_error(CSV_FIS, row[i].overlap);
-            csv_error(CSV_FIS, row[i].firefly);
-            csv_error(CSV_FIS, row[i].total);
-            csv_end_row(CSV_FIS);
+            csv_error(&bench_table[TABLE_FIS], row[i].gap);
+            csv_error(&bench_table[TABLE_FIS], row[i].overlap);
+            csv_error(&bench_table[TABLE_FIS], row[i].firefly);
+            csv_error(&bench_table[TABLE_FIS], row[i].total);
+            csv_row(&bench_table[TABLE_FIS]);
             printf(" %6.1f %9.1f %9.2f %7.4f\n", 100 * row[i].gap, 100 * row[i].overlap, row[i].firefly, row[i].total);
         }
         printf("\n");
@@ -160,7 +160,7 @@ void fis_build_bench(void) {
     static const char *const names[] = {"its bytes moved", "fis_build", "fis_build_pdf"};
     size_t size;
     for (size = 0; size < sizeof sizes / sizeof *sizes; size++) {
-        bench_time seconds[3];
+        quartiles seconds[3];
         char inputs[64];
         const double texels = (double)sizes[size][0] * sizes[size][1];
         int forms = sizes[size][2] == 1 ? 3 : 2, form;
@@ -173,9 +173,9 @@ void fis_build_bench(void) {
             printf("  %-18s %8.3f %5.1f %7.2f\n", names[form], 1e3 * seconds[form].median, bench_spread(seconds[form]),
                    seconds[form].median / seconds[0].median);
             bench_function_row("fis.h", "fis_build", names[form], form > 0, inputs, "");
-            csv_none(CSV_FUNCTIONS, 5);
-            csv_times(CSV_FUNCTIONS, seconds[form], 1e9 / texels);
-            csv_end_row(CSV_FUNCTIONS);
+            csv_skip(&bench_table[TABLE_FUNCTIONS], 5);
+            csv_quartiles(&bench_table[TABLE_FUNCTIONS], quartiles_scaled(seconds[form], 1e9 / texels));
+            csv_row(&bench_table[TABLE_FUNCTIONS]);
         }
         printf("\n");
         fflush(stdout);
@@ -186,7 +186,7 @@ void fis_build_bench(void) {
 fis_build_limit fis_build_measure(int channels) {
     const int width = 1920, height = 1088;
     const double texels = (double)width * height, pyramid = (double)fis_pyramid_size(width, height, channels);
-    bench_time seconds[2];
+    quartiles seconds[2];
     fis_build_limit l;
     build_begin(width, height, channels);
     bench_times(run_build, 2, seconds);

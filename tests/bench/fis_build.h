@@ -6,7 +6,7 @@
 
 typedef struct {
     double bytes; /* that a texel moves at least */
-    bench_time nanoseconds;
+    quartiles nanoseconds;
     double peak; /* bytes a nanosecond of a copy, interleaved with it */
 } fis_build_limit;
 

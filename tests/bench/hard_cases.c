@@ -1,6 +1,6 @@
 /* hard_cases.c - the table of hard cases */
 #include "hard_cases.h"
-#include "csv.h"
+#include "tables.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -42,23 +42,23 @@ static void print(const hard_case *c, const double *printed) {
     else
         printf(" %12s %10s", printed ? "nan" : "", printed ? "inf" : ""); /* without the sign that a NaN may have */
     printf("%s\n", failed ? " FAILED" : "");
-    csv_text(CSV_HARD_CASES, c->function);
-    csv_text(CSV_HARD_CASES, c->name);
-    csv_error(CSV_HARD_CASES, c->got);
-    csv_error(CSV_HARD_CASES, c->wanted);
-    csv_error(CSV_HARD_CASES, error);
-    csv_text(CSV_HARD_CASES, c->kind);
-    csv_error(CSV_HARD_CASES, limit);
+    csv_text(&bench_table[TABLE_HARD_CASES], c->function);
+    csv_text(&bench_table[TABLE_HARD_CASES], c->name);
+    csv_error(&bench_table[TABLE_HARD_CASES], c->got);
+    csv_error(&bench_table[TABLE_HARD_CASES], c->wanted);
+    csv_error(&bench_table[TABLE_HARD_CASES], error);
+    csv_text(&bench_table[TABLE_HARD_CASES], c->kind);
+    csv_error(&bench_table[TABLE_HARD_CASES], limit);
     if (printed) {
         if (*printed == *printed)
-            csv_error(CSV_HARD_CASES, *printed);
+            csv_error(&bench_table[TABLE_HARD_CASES], *printed);
         else
-            csv_text(CSV_HARD_CASES, "nan");
-        csv_error(CSV_HARD_CASES, error_of(c, *printed));
+            csv_text(&bench_table[TABLE_HARD_CASES], "nan");
+        csv_error(&bench_table[TABLE_HARD_CASES], error_of(c, *printed));
     } else {
-        csv_none(CSV_HARD_CASES, 2);
+        csv_skip(&bench_table[TABLE_HARD_CASES], 2);
     }
-    csv_end_row(CSV_HARD_CASES);
+    csv_row(&bench_table[TABLE_HARD_CASES]);
 }
 
 void hard_case_row(hard_case c) {

@@ -6,7 +6,7 @@
  them (counted.h); a multiply-add is two. That leaves out minima, conversions and operations on bits, which vector code
  spends time on as well, and takes every operation for one that may be half a multiply-add: no loop reaches all of it.
 */
-#include "csv.h"
+#include "tables.h"
 #include "filter.h"
 #include "fis_build.h"
 #include <stdio.h>
@@ -88,23 +88,23 @@ static int count(int which, double *operations, double *divisions) {
     return 1;
 }
 
-static void print(const char *loop, const char *resource, const char *unit, double amount, bench_time ns, double peak) {
+static void print(const char *loop, const char *resource, const char *unit, double amount, quartiles ns, double peak) {
     const double fraction = amount / ns.median / peak;
     printf("  %-34s %-12s %8.1f %-5s %9.3f %5.1f %8.2f %7.1f\n", loop, resource, amount, unit, ns.median,
            bench_spread(ns), peak, 100 * fraction);
-    csv_text(CSV_LIMITS, loop);
-    csv_text(CSV_LIMITS, resource);
-    csv_text(CSV_LIMITS, unit);
-    csv_number(CSV_LIMITS, amount);
-    csv_times(CSV_LIMITS, ns, 1);
-    csv_number(CSV_LIMITS, peak);
-    csv_number(CSV_LIMITS, fraction);
-    csv_end_row(CSV_LIMITS);
+    csv_text(&bench_table[TABLE_LIMITS], loop);
+    csv_text(&bench_table[TABLE_LIMITS], resource);
+    csv_text(&bench_table[TABLE_LIMITS], unit);
+    csv_number(&bench_table[TABLE_LIMITS], amount);
+    csv_quartiles(&bench_table[TABLE_LIMITS], ns);
+    csv_number(&bench_table[TABLE_LIMITS], peak);
+    csv_number(&bench_table[TABLE_LIMITS], fraction);
+    csv_row(&bench_table[TABLE_LIMITS]);
 }
 
 void limits_bench(void) {
     static const int channels[] = {1, 16};
-    bench_time seconds[MOST_LOOPS];
+    quartiles seconds[MOST_LOOPS];
     double multiply_adds, quotients;
     int k, loops, counted = 1;
     filters = filter_prepare();
@@ -117,7 +117,7 @@ void limits_bench(void) {
     printf("  %-34s %-12s %8s %-5s %9s %5s %8s %7s\n", "", "resource", "amount", "", "ns", "+-%", "peak / ns", "%");
     for (k = 0; k < loops; k++) {
         const double scale = 1e9 / run_elements(k);
-        bench_time ns;
+        quartiles ns;
         double operations, divisions;
         char name[64];
         if (!count(k, &operations, &divisions)) {
@@ -133,10 +133,10 @@ void limits_bench(void) {
     }
     if (!counted) {
         printf("  without a C++ compiler no operations are counted\n");
-        csv_text(CSV_LIMITS, "not counted: no C++ compiler");
-        csv_text(CSV_LIMITS, "multiply-add");
-        csv_none(CSV_LIMITS, 7);
-        csv_end_row(CSV_LIMITS);
+        csv_text(&bench_table[TABLE_LIMITS], "not counted: no C++ compiler");
+        csv_text(&bench_table[TABLE_LIMITS], "multiply-add");
+        csv_skip(&bench_table[TABLE_LIMITS], 7);
+        csv_row(&bench_table[TABLE_LIMITS]);
     }
     for (k = 0; k < (int)(sizeof channels / sizeof *channels); k++) {
         const fis_build_limit l = fis_build_measure(channels[k]);

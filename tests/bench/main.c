@@ -1,5 +1,6 @@
 /* The bench: speed beside error for every function, ours and the alternatives. */
-#include "csv.h"
+#include "bench.h"
+#include "tables.h"
 #include "../../examples/common/fail.h"
 #include "../../examples/common/progress.h"
 #include <math.h>
@@ -56,12 +57,7 @@ static void measure_errors(const bench_row *row, double *largest, double *rms) {
     for (f = 0; row->form[f].name; f++) rms[f] = largest[f] < HUGE_VAL ? sqrt(rms[f]) : HUGE_VAL;
 }
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-void bench_times(void (*run)(int which), int count, bench_time *times) {
+void bench_times(void (*run)(int which), int count, quartiles *times) {
     static double samples[BENCH_RUNS][REPETITIONS];
     const int repetitions = bench_quick ? QUICK_REPETITIONS : REPETITIONS;
     int turns[BENCH_RUNS], repetition, which, turn;
@@ -77,15 +73,10 @@ void bench_times(void (*run)(int which), int count, bench_time *times) {
             samples[which][repetition] = elapsed / turns[which];
         }
     }
-    for (which = 0; which < count; which++) {
-        qsort(samples[which], (size_t)repetitions, sizeof(double), ascending);
-        times[which].median = samples[which][repetitions / 2];
-        times[which].low = samples[which][repetitions / 4];
-        times[which].high = samples[which][repetitions - 1 - repetitions / 4];
-    }
+    for (which = 0; which < count; which++) times[which] = progress_quartiles(samples[which], repetitions);
 }
 
-double bench_spread(bench_time t) {
+double bench_spread(quartiles t) {
     return 50 * (t.high - t.low) / t.median;
 }
 
@@ -98,17 +89,17 @@ static void run_loop(int loop) {
 
 void bench_function_row(const char *header, const char *function, const char *form, int ours, const char *inputs,
                         const char *unit) {
-    csv_text(CSV_FUNCTIONS, header);
-    csv_text(CSV_FUNCTIONS, function);
-    csv_text(CSV_FUNCTIONS, form);
-    csv_number(CSV_FUNCTIONS, ours);
-    csv_text(CSV_FUNCTIONS, inputs);
-    csv_text(CSV_FUNCTIONS, unit);
+    csv_text(&bench_table[TABLE_FUNCTIONS], header);
+    csv_text(&bench_table[TABLE_FUNCTIONS], function);
+    csv_text(&bench_table[TABLE_FUNCTIONS], form);
+    csv_number(&bench_table[TABLE_FUNCTIONS], ours);
+    csv_text(&bench_table[TABLE_FUNCTIONS], inputs);
+    csv_text(&bench_table[TABLE_FUNCTIONS], unit);
 }
 
 static void print(const char *header, const bench_row *row, const progress *line) {
     double largest[BENCH_FORMS] = {0}, rms[BENCH_FORMS] = {0}, scale = 1e9 / BENCH_COUNT;
-    bench_time times[BENCH_RUNS];
+    quartiles times[BENCH_RUNS];
     int f, forms = 0;
     while (row->form[forms].name) forms++;
     timed = row;
@@ -120,16 +111,16 @@ static void print(const char *header, const bench_row *row, const progress *line
            "max error", "RMS");
     for (f = 0; f < forms; f++) {
         const bench_form *form = &row->form[f];
-        const bench_time scalar = times[2 * f], vector = times[2 * f + 1];
+        const quartiles scalar = times[2 * f], vector = times[2 * f + 1];
         printf("  %-34s %9.2f %9.3f %5.1f %7.1f %7.2f %10.3g %10.3g\n", form->name, scalar.median * scale,
                vector.median * scale, bench_spread(vector), scalar.median / vector.median,
                vector.median / times[1].median, largest[f], rms[f]);
         bench_function_row(header, row->function, form->name, !strncmp(form->loop, "our_", 4), row->inputs, row->unit);
-        csv_error(CSV_FUNCTIONS, largest[f]);
-        csv_error(CSV_FUNCTIONS, rms[f]);
-        csv_times(CSV_FUNCTIONS, scalar, scale);
-        csv_times(CSV_FUNCTIONS, vector, scale);
-        csv_end_row(CSV_FUNCTIONS);
+        csv_error(&bench_table[TABLE_FUNCTIONS], largest[f]);
+        csv_error(&bench_table[TABLE_FUNCTIONS], rms[f]);
+        csv_quartiles(&bench_table[TABLE_FUNCTIONS], quartiles_scaled(scalar, scale));
+        csv_quartiles(&bench_table[TABLE_FUNCTIONS], quartiles_scaled(vector, scale));
+        csv_row(&bench_table[TABLE_FUNCTIONS]);
     }
     printf("\n");
     fflush(stdout);
@@ -225,7 +216,7 @@ int main(int argc, char **argv) {
         int of_model;
         test_read_bound("sg.h", "sg_eval", "conditioned", &bound, &of_model);
     }
-    csv_begin(folder);
+    tables_begin(folder);
     line = progress_begin("bench", job_count);
     for (i = 0; i < job_count; i++) {
         test_random.state = 0;
@@ -238,6 +229,6 @@ int main(int argc, char **argv) {
         progress_step(&line);
     }
     progress_end(&line);
-    csv_end();
+    tables_end(folder);
     return hard_cases_failed > 0;
 }

@@ -34,7 +34,7 @@ static void add_rows(csv *table, const growth *g) {
             if (g->shaded[subject][i] > 0)
                 csv_error(table, g->shaded[subject][i]);
             else
-                csv_skip(table);
+                csv_skip(table, 1);
             csv_text(table, g->fixed);
             csv_row(table);
         }
