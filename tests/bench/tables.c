@@ -11,7 +11,8 @@ static const struct {
 } kinds[TABLES] = {
     {"/functions.csv", "header,function,form,ours,inputs,unit,max_error,rms_error," TIMES("scalar") "," TIMES("vector"),
      "functions"},
-    {"/fis.csv", "pdf,method,ours," TIMES("level") ",texels,level_rms,level_max,gap,overlap,brightest,total", "kernels"},
+    {"/fis.csv", "pdf,method,ours," TIMES("level") ",texels,level_rms,level_max,gap,overlap,brightest,total",
+     "kernels"},
     {"/limits.csv", "loop,resource,unit,amount," TIMES("loop") ",peak,fraction", "distance to the machine's limits"},
     {"/hard_cases.csv", "function,case,got,wanted,error,unit,limit,printed_got,printed_error", "hard cases"}};
 
