@@ -73,10 +73,10 @@ void test_climbed(const test_bound *bound, double error) {
         summits[known].limit = bound->limit;
         summits[known++].share = -1;
     }
-    if (i < known && count <= NUMBERS && error / bound->limit > summits[i].share) {
+    if (i < known && error / bound->limit > summits[i].share) {
         summits[i].share = error / bound->limit;
-        summits[i].count = count;
-        memcpy(summits[i].number, number, (size_t)count * sizeof *number);
+        summits[i].count = count <= NUMBERS ? count : 0; /* longer draws are not climbed from */
+        memcpy(summits[i].number, number, (size_t)summits[i].count * sizeof *number);
     }
     memcpy(before, bound->label, sizeof before);
     drawing = 0;
