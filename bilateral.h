@@ -212,7 +212,7 @@ LOBE_API float lobe_bilateral_top(const sg_lobe *lobes, int count) {
    i, j       ni and nj lobes, 1 or more; sharpness [0, 1e30]; amplitudes matter among the lobes of one pixel
    returns    q^beta
 
-   Rounding: <= 40 similarity, with no l   [bound bilateral_sg_mixture_weight similarity 40 over 1e-3 1e5]
+   Rounding: <= 48 similarity, with no l   [bound bilateral_sg_mixture_weight similarity 48 over 1e-3 1e5]
    Model:    exact
    Source:   004, Eq. 11, of logarithms, the sums over their largest term
 */
@@ -303,10 +303,10 @@ LOBE_INLINE float lobe_bilateral_sg_exponent(bilateral_sg i, bilateral_sg j, flo
    weight     count exponents, which become weights
    returns    bilateral_sg_weight times 2^exponent
 
-   Rounding: <= 12 similarity, of _tap_power 3 beta 2^-24 of the largest weight besides
+   Rounding: <= 12 similarity, of _tap_power 14 and 3 beta 2^-24 of the largest weight besides
              [bound bilateral_sg_tap similarity 12 over 1e-8 1e10]
              [bound bilateral_sg_taps similarity 12 over 1e-8 1e10]
-             [bound bilateral_sg_tap_power similarity 12 over 1e-8 1e10]
+             [bound bilateral_sg_tap_power similarity 14 over 1e-8 1e10]
    Model:    as bilateral_sg_weight
    Source:   004, Eq. 12, with widths 1 / li, so that only their sum is divided by
 */
@@ -464,9 +464,9 @@ LOBE_API void bilateral_sg_mixture_prepare(const sg_lobe *lobes, int count, bila
    weight     count exponents, which become weights
    returns    bilateral_sg_mixture_weight times 2^exponent
 
-   Rounding: of q, with l the largest sharpness, where no two axes are more than 150 degrees apart: <= 32 similarity
+   Rounding: of q, with l the largest sharpness, where no two axes are more than 150 degrees apart: <= 36 similarity
              for sharpness of 1 or more, <= 120 below
-             [bound bilateral_sg_mixture_tap similarity 32 over 1 1e6]
+             [bound bilateral_sg_mixture_tap similarity 36 over 1 1e6]
              [bound bilateral_sg_mixture_tap below 120 over .015625 1]
              [bound bilateral_sg_mixture_taps similarity 32 over 1 1e6]
              Of equal mixtures it is 1, but with -ffast-math within 3e-5 of that

@@ -50,8 +50,10 @@ static double redraw(const test_rng *rng, double drawn) {
     if (!drawing) begin_draw();
     if (from && count < from->count) {
         double old = from->number[count];
-        if (test_uniform(&chance) >= each) drawn = old;
-        else if (test_uniform(&chance) < 0.9) drawn = old + step * (drawn + test_uniform(&chance) - 1);
+        if (test_uniform(&chance) >= each)
+            drawn = old;
+        else if (test_uniform(&chance) < 0.9)
+            drawn = old + step * (drawn + test_uniform(&chance) - 1);
         drawn = fmin(drawn - floor(drawn), 1 - 0x1p-53);
     }
     if (count < NUMBERS) number[count] = drawn;
@@ -61,9 +63,9 @@ static double redraw(const test_rng *rng, double drawn) {
 
 void test_climbed(const test_bound *bound, double error) {
     int i = 0;
-    
-    while (i < known && (summits[i].side != side || strcmp(summits[i].label, bound->label) ||
-                         strcmp(summits[i].before, before)))
+
+    while (i < known &&
+           (summits[i].side != side || strcmp(summits[i].label, bound->label) || strcmp(summits[i].before, before)))
         i++;
     if (i == known && known < SUMMITS) {
         memset(summits + known, 0, sizeof *summits);
