@@ -623,10 +623,10 @@ LOBE_API asg_lobe asg_ashikhmin_lobe(lobe_vec3 normal, lobe_vec3 tangent, lobe_v
    Rounding: <= 22 directional   [bound asg_vsgl_specular directional 22]
              A variance of 0, or below 1e-9 of the squared distance, gives the point light to as much for alpha of .1
              or more
-   Model:    against the integral of incoming lobe, reflection and C: within .09 for lights of a standard
-             deviation up to a tenth of their distance and within alpha of the mirror direction, above grazing
-             incidence
-             [bound asg_vsgl_specular model .09 over .1 .5]
+   Model:    against the integral of incoming lobe, reflection and C: within .125 for lights of a standard
+             deviation up to a tenth of their distance, within alpha of the mirror direction, with emission of sharpness 50
+             or less; above grazing incidence: cosines of .3 for the viewer, .2 for the incoming lobe
+             [bound asg_vsgl_specular model .125 over .1 .5]
    Source:   000, section 4.2, with the inverse variance gathered with nu, so that neither overflows. C is the
              peak 1 / (pi alpha^2) times Smith's height-correlated visibility (Heitz 2014) times the cosine,
              constant over the incoming lobe.

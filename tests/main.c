@@ -29,6 +29,10 @@ int main(int argc, char **argv) {
             test_repeat = 400;
         } else if (!strcmp(argv[i], "--climb") && i + 1 < argc) {
             test_rounds = atoi(argv[++i]);
+            if (test_rounds < 1) {
+                usage(stderr);
+                return 2;
+            }
         } else if (!strcmp(argv[i], "--seed") && i + 1 < argc) {
             test_seed = strtoull(argv[++i], NULL, 10) << 32;
         } else if (!strcmp(argv[i], "--root") && i + 1 < argc) {
