@@ -217,7 +217,7 @@ LOBE_API float asg_sg_integral(asg_lobe a, sg_lobe g) {
    a          sharpness [0, 1e30]
    returns    sharpness 2 sqrt(sharpness_x sharpness_y); 0 where one is below 1e-37 of the other
 
-   Rounding: <= 3 ulp   [bound asg_isotropic ulp 3 over 1e-6 1e30]
+   Rounding: <= 3.5 ulp   [bound asg_isotropic ulp 3.5 over 1e-6 1e30]
    Model:    the anisotropy is lost: asg_sg_form tells when that matters
    Source:   an ASG of equal sharpness l is near its axis an SG of sharpness 2 l
 */
@@ -421,8 +421,8 @@ LOBE_API float asg_product_integral_xu(asg_lobe a, asg_lobe b) {
    returns    the same axes, each sharpness l as l / (1 + 2 l / kappa), the amplitude scaled by
               1 / sqrt((1 + 2 lx / kappa) (1 + 2 ly / kappa))
 
-   Rounding: <= 2.5e-7 relative in sharpness and in 1 + |log_amplitude|
-             [bound asg_convolve rel 2.5e-7 over 1e-8 1e10]
+   Rounding: <= 3e-7 relative in sharpness and in 1 + |log_amplitude|
+             [bound asg_convolve rel 3e-7 over 1e-8 1e10]
    Model:    Xu's product integral: values within .042 of the blurred peak, if all sharpnesses are 10 or more
              [bound asg_convolve model .042 over 10 1e5]
    Source:   004, section 4.2, times kappa / (2 pi)
@@ -474,8 +474,8 @@ LOBE_API float lobe_asg_half_sharpness(float alpha) {
    returns         peak 1 around the mirror direction z; x in the plane of incidence, on the normal's side, with
                    sharpness h / 4; y across it with h / (4 cos^2); at normal incidence any x
 
-   Rounding: frame orthonormal to 1.1e-6; sharpness within 12 2^-24 / cos relative, what rounding of the directions costs
-             [bound asg_reflection_lobe orthonormal 1.1e-6] [bound asg_reflection_lobe cosine 12]
+   Rounding: frame orthonormal to 1.2e-6; sharpness within 12 2^-24 / cos relative, as rounded directions cost
+             [bound asg_reflection_lobe orthonormal 1.2e-6] [bound asg_reflection_lobe cosine 12]
    Model:    first-order warp of half vectors with its Jacobian at the mirror direction: exact in the limit of sharp
              lobes; what the shape of a distribution adds is told with each
    Source:   Xu et al. 2013; Wang et al. 2009; 000, section 4.2
@@ -624,7 +624,7 @@ LOBE_API asg_lobe asg_ashikhmin_lobe(lobe_vec3 normal, lobe_vec3 tangent, lobe_v
              A variance of 0, or below 1e-9 of the squared distance, gives the point light to as much for alpha of .1
              or more
    Model:    against the integral of incoming lobe, reflection and C: within .125 for lights of a standard
-             deviation up to a tenth of their distance, within alpha of the mirror direction, with emission of sharpness 50
+             deviation up to a tenth of their distance, within alpha of the mirror direction, emission of sharpness 50
              or less; above grazing incidence: cosines of .3 for the viewer, .2 for the incoming lobe
              [bound asg_vsgl_specular model .125 over .1 .5]
    Source:   000, section 4.2, with the inverse variance gathered with nu, so that neither overflows. C is the

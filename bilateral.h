@@ -136,7 +136,7 @@ LOBE_INLINE float lobe_bilateral_squared(lobe_vec3 a, lobe_vec3 b) {
    variance   (0, 1e30], counts as at least 1e-30
    returns    exp(-(zi - zj)^2 / (2 variance))
 
-   Rounding: <= 8 (1 + |ln w|) 2^-24 relative   [bound bilateral_depth_weight conditioned 8 over 1e-6 1e6]
+   Rounding: <= 10 (1 + |ln w|) 2^-24 relative   [bound bilateral_depth_weight conditioned 10 over 1e-6 1e6]
    Model:    exact
    Source:   004, Eq. 3
 */
@@ -212,7 +212,7 @@ LOBE_API float lobe_bilateral_top(const sg_lobe *lobes, int count) {
    i, j       ni and nj lobes, 1 or more; sharpness [0, 1e30]; amplitudes matter among the lobes of one pixel
    returns    q^beta
 
-   Rounding: <= 48 similarity, with no l   [bound bilateral_sg_mixture_weight similarity 48 over 1e-3 1e5]
+   Rounding: <= 55 similarity, with no l   [bound bilateral_sg_mixture_weight similarity 55 over 1e-3 1e5]
    Model:    exact
    Source:   004, Eq. 11, of logarithms, the sums over their largest term
 */
@@ -234,7 +234,7 @@ LOBE_API float bilateral_sg_mixture_weight(const sg_lobe *i, int ni, const sg_lo
 
    variance   (0, 1e30], counts as at least 1e-30
 
-   Rounding: <= 3 ulp   [bound bilateral_scale ulp 3 over 1e-20 1e20]
+   Rounding: <= 4 ulp   [bound bilateral_scale ulp 4 over 1e-20 1e20]
    Model:    exact
    Source:   sqrt(log2(e) / (2 variance))
 */

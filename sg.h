@@ -373,7 +373,7 @@ LOBE_API float sg_integral(float sharpness) {
    g          sharpness [0, 1e30]; its amplitude does not matter
    returns    g with log_amplitude = -ln(sg_integral(sharpness))
 
-   Rounding: integral within 2.2e-6 of 1 for sharpness up to 1e10   [bound sg_normalize rel 2.2e-6 over 1e-8 1e10]
+   Rounding: integral within 2.5e-6 of 1 for sharpness up to 1e10   [bound sg_normalize rel 2.5e-6 over 1e-8 1e10]
    Model:    exact
    Source:   000, section 2
 */
@@ -391,7 +391,7 @@ LOBE_API sg_lobe sg_normalize(sg_lobe g) {
 
    Rounding: the lobe's share within the direction's angle is u to 6 (1 + sqrt(sharpness)) 2^-24, the second term for
              directions being floats   [bound sg_sample share 6 over 1e-8 1e10]
-             Lengths are 1 to 4e-7 for an axis of length 1   [bound sg_sample length 4e-7]
+             Lengths are 1 to 5e-7 for an axis of length 1   [bound sg_sample length 5e-7]
    Model:    exact
    Source:   inversion of 1 - exp(-sharpness t) for t = 1 - cos, by t = -ln(1 - x) / sharpness, x = u (1 - exp(-2
              sharpness)), with both functions divided by their arguments, so that sharpness 0 is the whole sphere
@@ -769,8 +769,8 @@ LOBE_API sg_lobe lobe_vsgl_emission(lobe_vec3 power, lobe_vec3 direction) {
    returns    mean position, variance >= 0, a lobe of peak 1 and the peak intensity for each component
 
    Rounding: the variance loses (|mean - origin|^2 + variance) 2^-21 absolute: keep the origin near; the sharpness
-             loses (sharpness + 4) 2^-21 relative and saturates at 2^25
-             [bound vsgl_from_moments variance 0x1p-21] [bound vsgl_from_moments sharpness 0x1p-21]
+             loses (sharpness + 4) 1.25 2^-21 relative and saturates at 2^25
+             [bound vsgl_from_moments variance 0x1p-21] [bound vsgl_from_moments sharpness 0x1.4p-21]
    Model:    000: one SG for each component, one isotropic Gaussian for the positions
    Source:   000, sections 3.1 and 3.2
 */
