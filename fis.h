@@ -283,7 +283,7 @@ LOBE_API float lobe_fis_total(const fis_pyramid *pdf) {
    image      one channel; may be the same as memory
    returns    the pyramid in memory. Bad texels: see the head of this file. No mass at all: every texel is 1
 
-   Rounding: as fis_build, of noise   [bound fis_build_pdf rel 2e-7]
+   Rounding: as fis_build, of noise to 2.5e-7   [bound fis_build_pdf rel 2.5e-7]
    Model:    exact
    Source:   002, section 3
 */

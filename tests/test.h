@@ -68,6 +68,15 @@ extern double test_slack; /* what limits of rounding are multiplied by: 1, more 
 /* How often random searches are to be repeated: 1, many with --long. */
 extern int test_repeat;
 
+/* What climb.c runs a test again for, this often: each bound is attacked from the worst of its draws. A check without
+   inputs is one of all draws together and left out. */
+extern int test_rounds;
+void test_climb(const test_case *test);
+void test_climbed(const test_bound *bound, double error);
+
+/* What is drawn in place of a number, while that search goes on; null otherwise. */
+extern double (*test_redraw)(const test_rng *rng, double drawn);
+
 /* A generator that starts anew with each test, so that a test draws the same alone as among others. */
 extern test_rng test_random;
 
