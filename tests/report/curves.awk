@@ -66,9 +66,8 @@ END {
         if (fit && count[name] > 1) {
             find_law(name)
             text = sprintf("%s: n^%.2f", name, law)
-            laws[i] = sprintf("%.9g * x ** %.9g", law_scale, law)
-            froms[i] = xs[name, 1]
-            tos[i] = xs[name, count[name]]
+            laws[i] = sprintf("%s %.9g\n%s %.9g", xs[name, 1], law_scale * xs[name, 1] ^ law, xs[name, count[name]],
+                law_scale * xs[name, count[name]] ^ law)
         }
         style_label(style_share("y", ys[name, last]), xs[name, last], style_place("y", ys[name, last]), text, style_color(i))
     }
@@ -88,9 +87,10 @@ END {
             printf "%s %.9g %s %s\n", xs[name, j], style_place("y", ys[name, j]), low, high
         }
         print "EOD"
+        if (i in laws) print "$law" i " << EOD\n" laws[i] "\nEOD"
         ink = sprintf("lc rgb \"%s\"", style_color(i))
         list = list (list == "" ? "plot " : ", \\\n     ")
-        if (i in laws) list = list sprintf("[%s:%s] %s with lines lw 1 dt 2 %s, \\\n     ", froms[i], tos[i], laws[i], ink)
+        if (i in laws) list = list sprintf("$law%d using 1:2 with lines lw 1 dt 2 %s, \\\n     ", i, ink)
         else if (count[name] > 1) list = list sprintf("$rows%d using 1:2 with lines lw 1.4 %s, \\\n     ", i, ink)
         list = list sprintf("$rows%d using 1:2:3:4 with %serrorbars pt %d ps %s lw 0.8 %s", i, fit ? "y" : "x", style_point(i),
             fit ? "0.45" : "0.55", ink)

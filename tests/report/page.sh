@@ -23,8 +23,8 @@ data() { # CSV files, of which all above is
     done
     printf '\n\n'
 }
-values() { # CSV file, column
-    awk -f "$here/csv.awk" -v name="$2" -f "$here/values.awk" "$folder/$1"
+values() { # CSV file, column, rows: what is in it, each once
+    awk -f "$here/csv.awk" -v name="$2" -v where="$3" -f "$here/values.awk" "$folder/$1"
 }
 text() { # paragraphs, as they are
     cat
@@ -146,16 +146,18 @@ papers() {
 What the papers print beside what is measured here. They timed GPUs, so that only ratios compare: each to the first of its
 kind, theirs and ours, and ours over theirs. Scenes are not the papers' own.
 END
-    awk -F , 'NR > 1 && !seen[$1 "," $2]++ { print $1 "," $2 }' "$folder/papers.csv" | while IFS=, read -r paper name; do
+    values papers.csv paper | while read -r paper; do
         case $paper in
             002) title='Modified filtered importance sampling (2016)' ;;
             003) title='Stochastic light culling (2017)' ;;
             004) title='Specular lobe-aware filtering (2015)' ;;
             *) title=$paper ;;
         esac
-        echo "### $title, $name" | tr ';' ','
-        echo
-        table papers.csv 'entry=,value=paper,unit=unit,value_ratio=ratio,ours=ours,ours_ratio=our ratio,ratio=ours / theirs' "paper=$paper&table=$name"
+        printf '### %s\n\n' "$title"
+        values papers.csv table "paper=$paper" | while read -r name; do
+            printf '**%s**\n\n' "$name" | tr ';' ','
+            table papers.csv 'entry=,value=paper,unit=unit,value_ratio=ratio,ours=ours,ours_ratio=our ratio,ratio=ours / theirs' "paper=$paper&table=$name"
+        done
     done
     data papers.csv lines_of_code.csv
 }

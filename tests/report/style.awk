@@ -20,6 +20,7 @@ function style_quote(text) {
 }
 
 function log10(x) { return log(x) / log(10) }
+function floor(x) { return int(x) > x ? int(x) - 1 : int(x) }
 
 # ---- an axis: its range grows by style_add, and is closed by style_close ----
 
@@ -54,24 +55,25 @@ function style_share(axis, value) {
 
 function style_number(value,    power) {
     if (value >= 0.001 && value < 100000) return sprintf("%.6g", value)
-    power = int(log10(value) + (value < 1 ? -0.0001 : 0.0001))
+    power = floor(log10(value) + 0.0001)
     return (value / 10 ^ power < 1.001 ? "" : sprintf("%.2g×", value / 10 ^ power)) "10^{" power "}"
 }
 
-function style_tics(axis,    from, to, decades, step, steps, parts, count, tics, power, i, value, near) {
+function style_tics(axis,    wide, from, to, decades, step, steps, parts, count, tics, power, i, value, near) {
     from = style_zero[axis] ? style_low[axis] * 0.999 : style_from[axis]
     to = style_inf[axis] ? style_high[axis] * 1.001 : style_to[axis]
     decades = log10(to / from)
     step = decades > 7 ? int(decades / 7) + 1 : 1
-    steps = decades > 3 ? "1" : decades > 1.2 ? "1 2 5" : "1 1.5 2 3 4 5 6 8"
+    wide = from < 0.001 || to > 100000
+    steps = decades > (wide ? 1.2 : 3) ? "1" : decades > 1.2 || wide ? "1 2 5" : "1 1.5 2 3 4 5 6 8"
     if (decades < 0.45) {
-        step = 10 ^ int(log10(to - from) + 100 - 100.0001)
+        step = 10 ^ floor(log10(to - from))
         while (step > (to - from) / 2) step /= 2
         for (value = int(from / step + 1) * step; value < to; value += step)
             tics = tics (tics == "" ? "" : ", ") "\"" style_number(value) "\" " value
     } else {
         count = split(steps, parts, " ")
-        for (power = int(log10(from) - 1); power <= log10(to); power++) {
+        for (power = floor(log10(from)); power <= log10(to); power++) {
             if ((power % step + step) % step) continue
             for (i = 1; i <= count; i++) {
                 value = parts[i] * 10 ^ power
