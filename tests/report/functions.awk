@@ -46,7 +46,8 @@ function write_front(name, errors,    i, j, order, t, best, y, drawn) {
 }
 
 function draw(    i, height, color, list) {
-    if (forms < 2) return
+    for (i = 1; i <= forms && most[i] == ""; i++);
+    if (forms < 2 || i > forms) return
     split("", style_low); split("", style_high); split("", style_inf); split("", style_zero)
     style_begin()
     for (i = 1; i <= forms; i++) {

@@ -10,7 +10,7 @@ FNR == 1 { csv_columns($0); next }
         plots++
         forms = 0
         head = csv("function")
-        about = csv_text(csv("inputs")) ". Errors in " csv_text(csv("unit"))
+        about = csv_text(csv("inputs")) (csv("unit") == "" ? "" : ". Errors in " csv_text(csv("unit")))
     }
     forms++
     name[forms] = text_plain(csv_text(csv("form")))
@@ -38,9 +38,9 @@ function write(    i, j, on_front, over, plot, line) {
     print "| form | ns, vector loop | ns, scalar | scalar / vector | / first | largest error | RMS | |"
     print "|---|---:|---:|---:|---:|---:|---:|---|"
     for (i = 1; i <= forms; i++) {
-        on_front = 1
+        on_front = most[i] != ""
         for (j = 1; j <= forms; j++)
-            if (j != i && ns[j] + 0 <= ns[i] + 0 && size(most[j]) <= size(most[i]) &&
+            if (j != i && most[j] != "" && ns[j] + 0 <= ns[i] + 0 && size(most[j]) <= size(most[i]) &&
                 (ns[j] + 0 < ns[i] + 0 || size(most[j]) < size(most[i]))) on_front = 0
         over = ns[1] + 0 > 0 ? sprintf("%.2f", ns[i] / ns[1]) : ""
         line = cells[i]

@@ -28,7 +28,7 @@ END {
             1 - 12 / height, style_color(i)
     }
     printf "set ytics ("
-    for (i = 1; i <= rows; i++) printf "%s%s %d", (i > 1 ? ", " : ""), style_quote(name[i]), i
+    for (i = 1; i <= rows; i++) printf "%s%s %d", (i > 1 ? ", " : ""), style_quote(name[i] == name[i - 1] ? "" : name[i]), i
     print ") noenhanced scale 0"
     print "$bars << EOD"
     for (i = 1; i <= rows; i++) {

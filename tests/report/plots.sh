@@ -17,20 +17,21 @@ curves() { # plot, CSV file, columns of x and y, column of the series, rows, lab
     draw curves "$file" -v out="$out" -v x="$x" -v y="$y" -v series="$series" -v where="$where" -v xlabel="$xlabel" \
         -v ylabel="$ylabel" -v title="$title" "$@"
 }
-values() { # CSV file, column: what is in it, each once
-    awk -f "$here/csv.awk" -v name="$2" -f "$here/values.awk" "$folder/$1"
+values() { # CSV file, column, rows: what is in it, each once
+    awk -f "$here/csv.awk" -v name="$2" -v where="$3" -f "$here/values.awk" "$folder/$1"
 }
 
 draw functions functions.csv -v folder="$folder"
 if [ "$(values limits.csv fraction)" ]; then draw limits limits.csv -v out="$folder/limits.svg"; fi
 
+kernels=$(values vsgl.csv lights k=2/4/8 | head -n 1)
 values vsgl.csv pdf | while read -r pdf; do
     curves "vsgl-$pdf" vsgl.csv generation_ms+shadows_ms+shading_ms error method "pdf=$pdf&k=1/" \
         'ms: generation, shadow maps and shading' 'mean error / mean' "lights by the PDF $pdf, their number growing from left to right" -v by=lights
     curves "vsgl-$pdf-generation" vsgl.csv generation_ms error method "pdf=$pdf&k=1/" \
         'ms: generation' 'mean error / mean' "the same, over the time of generation alone" -v by=lights
-    curves "vsgl-$pdf-k" vsgl.csv k error method "pdf=$pdf&k=1/2/4/8&lights=1024" \
-        'K, size of kernels in shares of a light' 'mean error / mean' "1024 lights by the PDF $pdf"
+    curves "vsgl-$pdf-k" vsgl.csv k error method "pdf=$pdf&k=1/2/4/8&lights=$kernels" \
+        'K, size of kernels in shares of a light' 'mean error / mean' "$kernels lights by the PDF $pdf"
 done
 values light_culling.csv scene | while read -r scene; do
     curves "light_culling-$scene" light_culling.csv total_ms rmse volume "scene=$scene&alpha=0.05" \
