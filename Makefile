@@ -33,6 +33,11 @@ test: $(BUILD)/tests headers readme vectors
 bench: $(BUILD)/bench
 	$(BUILD)/bench $(ARGS)
 
+# A page of it all, and of the examples, in BUILD/report; by QUICK=1 less of each.
+report: force
+	@sh tests/report/report.sh $(BUILD) '$(QUICK)' $(MAKE) '$(CC)'
+	@sh tests/report/check.sh $(BUILD)/report
+
 help:
 	@echo 'make                 builds and runs the main example: one-bounce glossy indirect light'
 	@echo 'make glossy_plane    an example: a sphere light over a glossy plane, as SGs and as ASGs'
@@ -43,10 +48,11 @@ help:
 	@echo '                     each takes ARGS="--help"'
 	@echo 'make test            compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
 	@echo 'make bench           speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
+	@echo 'make report          measures all that, the examples and how costs grow, and writes a page of plots and tables; QUICK=1 less'
 	@echo 'make fuzz            SECONDS=60 of random files for each reader, by clang with its libFuzzer'
 	@echo 'make test-shaders    compiles the shaders in both languages and runs them on a Vulkan device, by the same unit tests'
 	@echo 'make hlsl            makes the HLSL shaders anew from the GLSL ones'
-	@echo 'make setup           installs the Debian packages that shaders take'
+	@echo 'make setup           installs the Debian packages that shaders and the plots of the report take'
 	@echo 'make pictures        the README'\''s pictures anew, by netpbm and gnuplot'
 	@echo 'make clean           deletes $(BUILD)/'
 	@echo 'make help            prints this'
@@ -142,10 +148,11 @@ GLSL = examples/shaders/glsl
 HLSL = examples/shaders/hlsl
 SHADERS = $(wildcard $(GLSL)/* $(HLSL)/* examples/shaders/hlsl.sh)
 SHADER_PACKAGES = glslang-tools spirv-tools mesa-vulkan-drivers libvulkan-dev
+REPORT_PACKAGES = gnuplot-nox
 
 setup:
 	apt-get update
-	apt-get install -y --no-install-recommends $(SHADER_PACKAGES)
+	apt-get install -y --no-install-recommends $(SHADER_PACKAGES) $(REPORT_PACKAGES)
 
 hlsl:
 	@mkdir -p $(HLSL)
@@ -194,4 +201,4 @@ $(BUILD)/flags: force
 	@mkdir -p $(BUILD)
 	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
 
-.PHONY: run $(EXAMPLES) gpu test bench fuzz setup hlsl shader-tools test-shaders help clean headers vectors readme force
+.PHONY: run $(EXAMPLES) gpu test bench report fuzz setup hlsl shader-tools test-shaders help clean headers vectors readme force
