@@ -182,12 +182,17 @@ LOBE_API fis_pyramid lobe_fis_layout(int width, int height, int channels) {
     return p;
 }
 
+/* count * channels numbers of a size; more than any allocation gives where their bytes exceed a size_t */
+LOBE_API size_t lobe_fis_numbers(size_t count, size_t channels, size_t size) {
+    return count <= (size_t)-1 / size / channels ? count * channels : (size_t)-1;
+}
+
 /*
  fis_pyramid_size - memory that a pyramid takes
 
    width, height   [1, 32768]
    channels        1 or more
-   returns         number of floats, all levels together
+   returns         number of floats, all levels together; the largest size_t where memory cannot hold them
 
    Rounding: exact
    Model:    exact
@@ -195,7 +200,8 @@ LOBE_API fis_pyramid lobe_fis_layout(int width, int height, int channels) {
 */
 LOBE_API size_t fis_pyramid_size(int width, int height, int channels) {
     fis_pyramid p = lobe_fis_layout(width, height, channels);
-    return ((size_t)p.offset[p.levels - 1] + 1) * (size_t)channels; /* the top level is one texel */
+    size_t texels = (size_t)p.offset[p.levels - 1] + 1; /* the top level is one texel */
+    return lobe_fis_numbers(texels, (size_t)channels, sizeof(float));
 }
 
 /* One row of a level from two of the level below, or from one: there is no second one where bottom == top. */
@@ -630,7 +636,7 @@ LOBE_API float fis_scale_density_nearest(const fis_pyramid *pdf, const fis_sampl
  fis_split_size - memory that a summed-area table takes
 
    width, height   [1, 32768]
-   returns         number of doubles
+   returns         number of doubles; the largest size_t where memory cannot hold them
 
    Rounding: exact
    Model:    exact
@@ -638,7 +644,7 @@ LOBE_API float fis_scale_density_nearest(const fis_pyramid *pdf, const fis_sampl
 */
 LOBE_API size_t fis_split_size(int width, int height) {
     LOBE_ASSERT(width >= 1 && width <= LOBE_FIS_SIDE && height >= 1 && height <= LOBE_FIS_SIDE);
-    return ((size_t)width + 1) * ((size_t)height + 1);
+    return lobe_fis_numbers((size_t)width + 1, (size_t)height + 1, sizeof(double));
 }
 
 /*
