@@ -5,7 +5,7 @@ folder=$1/consumers
 rm -rf "$folder" && mkdir -p "$folder" || exit 1
 . tests/compile/step.sh
 make=${MAKE:-make}
-prefix=$PWD/$folder/prefix
+prefix=$folder/prefix
 
 by_cmake() { # name, options...
     build=$folder/$1

@@ -20,7 +20,7 @@ esac
 
 unit_tests() {
     $compiler $flags $WARN -O2 -static tests/*.c examples/common/file.c -o "$folder/tests.exe" -lm || return
-    WINEDEBUG=-all WINEPREFIX=$PWD/$folder/wine $runner "$folder/tests.exe" --quick --verbose > "$folder/bounds.txt"
+    WINEDEBUG=-all WINEPREFIX=$folder/wine $runner "$folder/tests.exe" --quick --verbose > "$folder/bounds.txt"
     status=$?
     grep FAILED "$folder/bounds.txt"
     tail -n 1 "$folder/bounds.txt"

@@ -1,4 +1,5 @@
 # Read by the scripts of `make check`: one line of progress a step. $folder keeps what a step makes and says.
+case $folder in /*) ;; *) folder=$PWD/$folder ;; esac
 WARN='-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Werror'
 HEADERS='sg.h asg.h fis.h ggx_bound.h bilateral.h'
 
