@@ -10,7 +10,7 @@ SECONDS = 60
 # What this compiler has: tuning for this machine, threads. Each is used only if a program links with it.
 has = $(shell mkdir -p $(BUILD) && echo 'int main(void) { return 0; }' > $(BUILD)/probe.c && \
         $(CC) $(1) $(BUILD)/probe.c -o $(BUILD)/probe 2>/dev/null && echo '$(1)')
-ifeq ($(filter help clean,$(MAKECMDGOALS)),)
+ifeq ($(filter help clean install uninstall,$(MAKECMDGOALS)),)
 NATIVE := $(call has,-march=native)
 OPENMP := $(call has,-fopenmp)
 endif
@@ -30,6 +30,12 @@ $(EXAMPLES): %: $(BUILD)/%
 test: $(BUILD)/tests headers readme vectors
 	$(BUILD)/tests $(ARGS)
 
+# As drop-in as it says: tests/compile/check.sh lists the steps. JOBS of them run at a time, ARGS=NAME some of them.
+JOBS = 2
+
+check: $(BUILD)/flags
+	@MAKE="$(MAKE)" JOBS=$(JOBS) sh tests/compile/check.sh $(BUILD) "$(ARGS)"
+
 bench: $(BUILD)/bench
 	$(BUILD)/bench $(ARGS)
 
@@ -47,17 +53,37 @@ help:
 	@echo 'make gpu             the shaders on a Vulkan device beside the same on the CPU: pictures and times'
 	@echo '                     each takes ARGS="--help"'
 	@echo 'make test            compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
+	@echo 'make check           make test, and the headers in all C and C++ there is, under other flags, on other machines,'
+	@echo '                     after hostile headers, in programs by CMake and pkg-config: 12 minutes on 2 cores'
 	@echo 'make bench           speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
 	@echo 'make report          measures all that, the examples and how costs grow, and writes a page of plots and tables; QUICK=1 less'
 	@echo 'make fuzz            SECONDS=60 of random files for each reader, by clang with its libFuzzer'
 	@echo 'make test-shaders    compiles the shaders in both languages and runs them on a Vulkan device, by the same unit tests'
 	@echo 'make hlsl            makes the HLSL shaders anew from the GLSL ones'
-	@echo 'make setup           installs the Debian packages that shaders and the plots of the report take'
+	@echo 'make setup           installs the Debian packages that these take'
 	@echo 'make pictures        the README'\''s pictures anew, by netpbm and gnuplot'
+	@echo 'make install         copies the headers to PREFIX=/usr/local, below DESTDIR, with lobe.pc; make uninstall'
 	@echo 'make clean           deletes $(BUILD)/'
 	@echo 'make help            prints this'
 	@echo
 	@echo 'CC=clang, CFLAGS=..., BUILD=directory, WERROR=1 and ARGS=... may be added to each'
+
+VERSION = $(shell awk '$$2 == "LOBE_VERSION" && NF > 2 { printf "%d.%d.%d", $$3 / 10000, $$3 / 100 % 100, $$3 % 100; exit }' sg.h)
+PREFIX = /usr/local
+INSTALL_HEADERS = $(DESTDIR)$(PREFIX)/include/lobe
+INSTALL_PKGCONFIG = $(DESTDIR)$(PREFIX)/share/pkgconfig
+
+install:
+	mkdir -p $(INSTALL_HEADERS) $(INSTALL_PKGCONFIG)
+	cp $(HEADERS) $(INSTALL_HEADERS)
+	chmod 644 $(HEADERS:%=$(INSTALL_HEADERS)/%)
+	printf '%s\n' 'prefix=$(PREFIX)' '' 'Name: lobe' 'Description: glossy many-light rendering, header-only' \
+	    'Version: $(VERSION)' 'Cflags: -I$${prefix}/include/lobe' 'Libs: -lm' > $(INSTALL_PKGCONFIG)/lobe.pc
+	chmod 644 $(INSTALL_PKGCONFIG)/lobe.pc
+
+uninstall:
+	rm -f $(HEADERS:%=$(INSTALL_HEADERS)/%) $(INSTALL_PKGCONFIG)/lobe.pc
+	[ ! -d $(INSTALL_HEADERS) ] || rmdir $(INSTALL_HEADERS)
 
 clean:
 	rm -rf $(BUILD)
@@ -149,10 +175,13 @@ HLSL = examples/shaders/hlsl
 SHADERS = $(wildcard $(GLSL)/* $(HLSL)/* examples/shaders/hlsl.sh)
 SHADER_PACKAGES = glslang-tools spirv-tools mesa-vulkan-drivers libvulkan-dev
 REPORT_PACKAGES = gnuplot-nox
+CHECK_PACKAGES = gcc g++ libc6-dev clang tcc cmake pkg-config qemu-user wine wine64 gcc-mingw-w64-x86-64 \
+                 gcc-i686-linux-gnu libc6-dev-i386-cross gcc-aarch64-linux-gnu libc6-dev-arm64-cross \
+                 gcc-s390x-linux-gnu libc6-dev-s390x-cross
 
 setup:
 	apt-get update
-	apt-get install -y --no-install-recommends $(SHADER_PACKAGES) $(REPORT_PACKAGES)
+	apt-get install -y --no-install-recommends $(SHADER_PACKAGES) $(REPORT_PACKAGES) $(CHECK_PACKAGES)
 
 hlsl:
 	@mkdir -p $(HLSL)
@@ -201,4 +230,4 @@ $(BUILD)/flags: force
 	@mkdir -p $(BUILD)
 	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
 
-.PHONY: run $(EXAMPLES) gpu test bench report fuzz setup hlsl shader-tools test-shaders help clean headers vectors readme force
+.PHONY: run $(EXAMPLES) gpu test check install uninstall bench report pictures fuzz setup hlsl shader-tools test-shaders help clean headers vectors readme force

@@ -13,7 +13,7 @@
 
    macro        | default       | effect
    LOBE_VEC3    | a struct      | the engine's own vector type with fields x, y, z
-   LOBE_API     | static inline | linkage of every function
+   LOBE_API     | static inline | linkage of every function, with inline
    LOBE_ASSERT  | nothing       | called with each domain condition, e.g. assert
 
  Conventions: an SG is G(w) = exp(log_amplitude + sharpness (dot(w, axis) - 1)). Directions have unit length

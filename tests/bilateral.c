@@ -168,7 +168,7 @@ static double gaussian_log_weight(double d, double vi, double vj, double beta) {
 static void gaussians_match(void) {
     test_bound bound = bound_of("bilateral_gaussian_weight", "similarity");
     int k;
-    for (k = 0; k < 100000; k++) {
+    for (k = 0; k < test_few(100000); k++) {
         double inputs[5], d, wanted;
         inputs[0] = 0; /* exact means: their rounding is the caller's */
         inputs[2] = log_uniform(bound.low, bound.high);
@@ -242,7 +242,7 @@ static void sg_weight_is_near_the_integral(void) {
     test_bound model = bound_of("bilateral_sg_weight", "model"), sharp = bound_of("bilateral_sg_weight", "sharp");
     double last = 1;
     int k;
-    for (k = 0; k < 100000; k++) {
+    for (k = 0; k < test_few(100000); k++) {
         double inputs[9], low = k % 2 ? sharp.low : model.low;
         sg_lobe i = random_lobe(low, k % 2 ? sharp.high : model.high), j = other_lobe(i, low, model.high, 20);
         test_bound *bound = k % 2 ? &sharp : &model;
@@ -476,7 +476,7 @@ static double quadrature(const mixture *i, const mixture *j, vec axis) {
 /* Eq. 8 of the mixtures themselves */
 static void mixtures_match_quadrature(void) {
     int k;
-    for (k = 0; k < 20; k++) {
+    for (k = 0; k < test_few(20); k++) {
         vec axis = random_direction();
         mixture i = random_mixture(axis, 0.1, 60), j = other_mixture(&i, axis, 0.1, 60);
         double wanted = quadrature(&i, &j, axis) / sqrt(quadrature(&i, &i, axis) * quadrature(&j, &j, axis));

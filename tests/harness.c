@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-int test_verbose, test_quiet;
+int test_verbose, test_quiet, test_quick;
 int test_repeat = 1;
 double test_slack = 1;
 int test_least, test_most = 1 << 30;
@@ -67,6 +67,10 @@ int test_is_finite(float value) {
 
 int test_draws(int count) {
     return count < test_least ? test_least : count < test_most ? count : test_most;
+}
+
+int test_few(int count) {
+    return test_quick ? (count + 9) / 10 : count;
 }
 
 int test_run(const test_case *test) {

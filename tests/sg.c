@@ -122,7 +122,7 @@ static void test_exp2(void) {
         check_exp2(&bound, edge * (1 + FLT_EPSILON));
         check_exp2(&bound, edge * (1 - FLT_EPSILON));
     }
-    for (i = 0; i < 100000; i++) check_exp2(&bound, (float)(-127 + 255 * test_uniform(&test_random)));
+    for (i = 0; i < test_few(100000); i++) check_exp2(&bound, (float)(-127 + 255 * test_uniform(&test_random)));
     test_report(&bound);
 }
 
@@ -153,7 +153,7 @@ static void test_log(void) {
         record(x);
         within(&bound, (double)lobe_log(of_bits(bits)), wanted, fabs(wanted));
     }
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         double x;
         begin();
         x = record((double)(float)(1 + (i % 2 ? 1 : -1) * test_log_uniform(&test_random, 1e-7, 0.5)));
@@ -272,7 +272,7 @@ static void test_closed_forms(void) {
 static void test_eval(void) {
     test_bound bound = test_bound_of("sg.h", "sg_eval", "conditioned");
     int i;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_few(200000); i++) {
         sg_lobe g, dir;
         double ln;
         draw_pair(bound.low, bound.high, &g, &dir);
@@ -323,7 +323,7 @@ static void test_sample(void) {
     test_bound size = test_bound_of("sg.h", "sg_sample", "length");
     sg_lobe g = lobe_of(lobe_vector(0, 0, -1), 1e30, 0);
     int i;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         vec axis = random_direction(), w;
         double l, u, chord;
         begin();
@@ -398,7 +398,7 @@ static void test_sample_distribution(void) {
 static void test_pdf(void) {
     test_bound bound = test_bound_of("sg.h", "sg_pdf", "conditioned");
     int i;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         sg_lobe g, dir;
         double ln, peak;
         draw_pair(bound.low, bound.high, &g, &dir);
@@ -415,7 +415,7 @@ static void test_product(void) {
     test_bound sharpness = stated("sg_product sharpness, of the sum", 8);
     test_bound axis = stated("sg_product axis, times sharpness over the sum", 8);
     int i;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_few(200000); i++) {
         sg_lobe a, b, g;
         exact_product p;
         double ln;
@@ -443,7 +443,7 @@ static void test_product(void) {
 static void test_product_values(void) {
     test_bound bound = test_bound_of("sg.h", "sg_product", "conditioned");
     int i;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         sg_lobe a, b, g;
         vec w;
         double ln, got;
@@ -464,7 +464,7 @@ static void test_product_integral(void) {
     test_bound exact = test_bound_of("sg.h", "sg_product_integral", "conditioned");
     test_bound approx = test_bound_of("sg.h", "sg_product_integral_approx", "conditioned");
     int i;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_few(200000); i++) {
         sg_lobe a, b;
         exact_product p;
         double aligned, chord, loss, amplitude;
@@ -539,7 +539,7 @@ static void test_aligned(void) {
 static void test_product_integral_approx_model(void) {
     test_bound bound = test_bound_of("sg.h", "sg_product_integral_approx", "model");
     int i;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         sg_lobe a, b;
         exact_product p;
         double aligned;
@@ -613,7 +613,7 @@ static void test_cosine_integral(void) {
     test_bound sharp = test_bound_of("sg.h", "sg_cosine_integral", "sharp");
     test_bound approx = test_bound_of("sg.h", "sg_cosine_integral_approx", "abs");
     int i;
-    for (i = 0; i < 20000; i++) {
+    for (i = 0; i < test_few(20000); i++) {
         double l;
         begin();
         l = log_uniform(bound.low, bound.high);
@@ -730,7 +730,7 @@ static void test_reflection_lobe(void) {
     test_bound bound = test_bound_of("sg.h", "sg_reflection_lobe", "ulp");
     test_bound mirror = stated("sg_reflection_lobe axis", 8);
     int i;
-    for (i = 0; i < 110000; i++) {
+    for (i = 0; i < test_few(110000); i++) {
         lobe_vec3 normal, wi;
         vec n, w;
         double cosine, half, wanted;
@@ -991,7 +991,7 @@ static void test_cluster_of_one_vpl(void) {
     test_bound ulp = test_bound_of("sg.h", "vsgl_from_cluster", "ulp");
     test_bound point_light = stated("one VPL against the point light", 1e-6 / TEST_EPSILON);
     int i, k;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         lobe_vec3 position, target, normal;
         vsgl v;
         vpl p;
@@ -1249,7 +1249,7 @@ static void test_incoming_lobe(void) {
     test_bound bound = test_bound_of("sg.h", "vsgl_incoming_lobe", "conditioned");
     test_bound naive = stated("Eq. 7 as printed, in long double", 1e-9);
     int i;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_few(200000); i++) {
         lit_point s = draw_lit_point();
         sg_lobe g = vsgl_incoming_lobe(s.light, s.component, s.point);
         incoming in = exact_incoming(s);

@@ -57,12 +57,16 @@ void test_direction(test_rng *rng, double direction[3]);
 int test_run(const test_case *test);
 
 extern const char *test_root; /* where the headers are */
-extern int test_verbose, test_quiet;
+extern int test_verbose, test_quiet, test_quick;
 extern unsigned long long test_seed;
 extern int test_least, test_most;
 
 /* The count, but within these: shaders are asked about as often for each function. */
 int test_draws(int count);
+
+/* The count, or a tenth of it with --quick: where draws are slow, or many but none of shaders. */
+int test_few(int count);
+
 extern double test_slack; /* what limits of rounding are multiplied by: 1, more for shaders */
 
 /* How often random searches are to be repeated: 1, many with --long. */
