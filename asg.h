@@ -451,7 +451,7 @@ LOBE_API asg_lobe lobe_asg_mirror(lobe_vec3 normal, lobe_vec3 wi, float cos_thet
     size = sqrtf(c * c + d * d);
     inverse = 1 / lobe_at_least(size, 1e-15f);
     c = lobe_select(size > 1e-15f, c * inverse, 1);
-    d *= inverse;
+    d = lobe_select(size > 1e-15f, d * inverse, 0);
     a.x = lobe_add(lobe_scale(u, c), lobe_scale(v, d));
     a.y = lobe_sub(lobe_scale(v, c), lobe_scale(u, d));
     a.sharpness_x = 0;
@@ -517,9 +517,9 @@ LOBE_API asg_lobe asg_reflection_lobe_aniso(lobe_vec3 normal, lobe_vec3 tangent,
     s = lobe_select(spread > 0, radius + spread, mixed);
     c = lobe_select(spread > 0, mixed, radius - spread);
     size = sqrtf(s * s + c * c);
-    inverse = 1 / lobe_at_least(size, LOBE_TINY);
-    s = lobe_select(size > LOBE_TINY, s * inverse, 0);
-    c = lobe_select(size > LOBE_TINY, c * inverse, 1);
+    inverse = 1 / lobe_at_least(size, 1e-15f);
+    s = lobe_select(size > 1e-15f, s * inverse, 0);
+    c = lobe_select(size > 1e-15f, c * inverse, 1);
     turned.z = a.z;
     turned.y = lobe_add(lobe_scale(a.x, s), lobe_scale(a.y, c));
     turned.x = lobe_sub(lobe_scale(a.x, c), lobe_scale(a.y, s));

@@ -112,7 +112,7 @@ typedef struct fis_cell {
 /* ---- small numerics ---- */
 
 LOBE_API float lobe_fis_clamp(float x, float low, float high) {
-    return x < low ? low : x > high ? high : x;
+    return x > low ? (x < high ? x : high) : low; /* low for NaN: an index stays one */
 }
 
 /* x, or 0 where it is not below 2^96 in magnitude. On bits, since -ffast-math knows no infinities, and as signed
