@@ -55,6 +55,8 @@ within() { # seconds of processor time, command
     { (ulimit -t "$1"; shift; "$@"); } > /dev/null 2>&1
 }
 
+pids=
+trap '[ -z "$pids" ] || kill $pids; exit 2' INT TERM
 rm -rf "$folder"
 mkdir -p "$folder/base" || exit 2
 echo "compiling the tests" >&2
