@@ -164,7 +164,7 @@ LOBE_API float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
  asg_sg_integral - integral of the product of an ASG and an SG over the sphere
 
    a, g       sharpness [0, 1e30]; the ASG's above 1e12 counts as 1e12
-   returns    (0, pi] times both amplitudes, also for an SG below the lobe's horizon
+   returns    (0, pi] times both amplitudes, but for the error of the model; also for an SG below the lobe's horizon
 
    Rounding: <= 9 directional against the limit of a point   [bound asg_sg_integral directional 9 over 1e12 1e20]
              and 28 against the formula in double   [bound asg_sg_integral formula 28 over 1e-2 1e8]
