@@ -6,6 +6,9 @@ WARN = -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wdouble-promotion $(if $(
 CFLAGS = $(OPTIMIZE)
 ARGS =
 SECONDS = 60
+COUNT = 60
+SEED = 1
+JOBS = 2
 
 # What this compiler has: tuning for this machine, threads. Each is used only if a program links with it.
 has = $(shell mkdir -p $(BUILD) && echo 'int main(void) { return 0; }' > $(BUILD)/probe.c && \
@@ -57,7 +60,8 @@ help:
 	@echo '                     after hostile headers, in programs by CMake and pkg-config: 12 minutes on 2 cores'
 	@echo 'make bench           speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
 	@echo 'make report          measures all that, the examples and how costs grow, and writes a page of plots and tables; QUICK=1 less'
-	@echo 'make fuzz            SECONDS=60 of random files for each reader, by clang with its libFuzzer'
+	@echo 'make fuzz            SECONDS=60 of random arguments for each header, and random files for the readers (FUZZ=fis for one)'
+	@echo 'make mutation        whether the unit tests notice COUNT=60 small faults of each header (all, SEED=1, HEADER=sg.h, JOBS=2)'
 	@echo 'make test-shaders    compiles the shaders in both languages and runs them on a Vulkan device, by the same unit tests'
 	@echo 'make hlsl            makes the HLSL shaders anew from the GLSL ones'
 	@echo 'make setup           installs the Debian packages that these take'
@@ -131,7 +135,7 @@ $(BUILD)/growth: $(GROWTH) examples/light_culling.c $(wildcard tests/growth/*.h 
 
 # Each of tests/fuzz for some seconds, from the files that a script beside it makes. What it learns stays in BUILD/fuzz.
 FUZZ_CC = $(if $(findstring clang,$(CC)),$(CC),clang)
-FUZZ_FLAGS = -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all
+FUZZ_FLAGS = -fsanitize=fuzzer,address,undefined,float-cast-overflow -fno-sanitize-recover=all
 
 fuzz: $(BUILD)/flags
 	@echo 'int LLVMFuzzerTestOneInput(void); int LLVMFuzzerTestOneInput(void) { return 0; }' > $(BUILD)/fuzz.c
@@ -141,11 +145,17 @@ fuzz: $(BUILD)/flags
 	    mkdir -p $(BUILD)/fuzz/$$name; \
 	    [ ! -e tests/fuzz/$$name.sh ] || sh tests/fuzz/$$name.sh $(BUILD)/fuzz/$$name; \
 	    $(FUZZ_CC) -std=c99 $(WARN) -O1 -g $(FUZZ_FLAGS) tests/fuzz/$$name.c -o $(BUILD)/fuzz.$$name -lm; \
-	    $(BUILD)/fuzz.$$name -max_total_time=$(SECONDS) -timeout=10 -max_len=2048 -print_final_stats=1 \
-	        -artifact_prefix=$(BUILD)/fuzz.$$name. $(BUILD)/fuzz/$$name > $(BUILD)/fuzz.log 2>&1 || \
+	    $(BUILD)/fuzz.$$name -max_total_time=$(SECONDS) -timeout=10 -max_len=2048 -len_control=0 -use_value_profile=1 \
+	        -print_final_stats=1 -artifact_prefix=$(BUILD)/fuzz.$$name. $(BUILD)/fuzz/$$name > $(BUILD)/fuzz.log 2>&1 || \
 	        { cat $(BUILD)/fuzz.log; exit 1; }; \
 	    grep -E 'DONE|stat::number_of_executed' $(BUILD)/fuzz.log; echo "ok     fuzz $$name, $(SECONDS) s"; \
 	done
+
+# Small faults of the headers, drawn by SEED, one at a time: do the tests of each notice? Results stay in BUILD/mutation.
+HEADER = $(HEADERS)
+
+mutation:
+	@sh tests/mutation/mutate.sh $(BUILD) $(CC) $(COUNT) $(SEED) $(JOBS) $(HEADER)
 
 # Each header alone, as C99 and, where the compiler knows it, as C++17.
 headers: $(BUILD)/flags
@@ -175,7 +185,7 @@ HLSL = examples/shaders/hlsl
 SHADERS = $(wildcard $(GLSL)/* $(HLSL)/* examples/shaders/hlsl.sh)
 SHADER_PACKAGES = glslang-tools spirv-tools mesa-vulkan-drivers libvulkan-dev
 REPORT_PACKAGES = gnuplot-nox
-CHECK_PACKAGES = gcc g++ libc6-dev clang tcc cmake pkg-config qemu-user wine wine64 gcc-mingw-w64-x86-64 \
+CHECK_PACKAGES = gcc g++ libc6-dev clang libclang-rt-dev libomp-dev tcc cmake pkg-config netpbm qemu-user wine wine64 gcc-mingw-w64-x86-64 \
                  gcc-i686-linux-gnu libc6-dev-i386-cross gcc-aarch64-linux-gnu libc6-dev-arm64-cross \
                  gcc-s390x-linux-gnu libc6-dev-s390x-cross
 
@@ -230,4 +240,4 @@ $(BUILD)/flags: force
 	@mkdir -p $(BUILD)
 	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
 
-.PHONY: run $(EXAMPLES) gpu test check install uninstall bench report pictures fuzz setup hlsl shader-tools test-shaders help clean headers vectors readme force
+.PHONY: run $(EXAMPLES) gpu test check install uninstall bench report pictures fuzz mutation setup hlsl shader-tools test-shaders help clean headers vectors readme force

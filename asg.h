@@ -164,7 +164,7 @@ LOBE_API float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
  asg_sg_integral - integral of the product of an ASG and an SG over the sphere
 
    a, g       sharpness [0, 1e30]; the ASG's above 1e12 counts as 1e12
-   returns    (0, pi] times both amplitudes, also for an SG below the lobe's horizon
+   returns    (0, pi] times both amplitudes, but for the error of the model; also for an SG below the lobe's horizon
 
    Rounding: <= 9 directional against the limit of a point   [bound asg_sg_integral directional 9 over 1e12 1e20]
              and 28 against the formula in double   [bound asg_sg_integral formula 28 over 1e-2 1e8]
@@ -451,7 +451,7 @@ LOBE_API asg_lobe lobe_asg_mirror(lobe_vec3 normal, lobe_vec3 wi, float cos_thet
     size = sqrtf(c * c + d * d);
     inverse = 1 / lobe_at_least(size, 1e-15f);
     c = lobe_select(size > 1e-15f, c * inverse, 1);
-    d *= inverse;
+    d = lobe_select(size > 1e-15f, d * inverse, 0);
     a.x = lobe_add(lobe_scale(u, c), lobe_scale(v, d));
     a.y = lobe_sub(lobe_scale(v, c), lobe_scale(u, d));
     a.sharpness_x = 0;
@@ -517,9 +517,9 @@ LOBE_API asg_lobe asg_reflection_lobe_aniso(lobe_vec3 normal, lobe_vec3 tangent,
     s = lobe_select(spread > 0, radius + spread, mixed);
     c = lobe_select(spread > 0, mixed, radius - spread);
     size = sqrtf(s * s + c * c);
-    inverse = 1 / lobe_at_least(size, LOBE_TINY);
-    s = lobe_select(size > LOBE_TINY, s * inverse, 0);
-    c = lobe_select(size > LOBE_TINY, c * inverse, 1);
+    inverse = 1 / lobe_at_least(size, 1e-15f);
+    s = lobe_select(size > 1e-15f, s * inverse, 0);
+    c = lobe_select(size > 1e-15f, c * inverse, 1);
     turned.z = a.z;
     turned.y = lobe_add(lobe_scale(a.x, s), lobe_scale(a.y, c));
     turned.x = lobe_sub(lobe_scale(a.x, c), lobe_scale(a.y, s));

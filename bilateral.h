@@ -94,17 +94,17 @@ typedef struct bilateral_asg {
 
 /* log2 x for x from 2^-126; exactly 0 at 1. Error in max(1, |log2 x| / 4).   [bound lobe_bilateral_log2 abs 6e-7] */
 LOBE_INLINE float lobe_bilateral_log2(float x) {
-    int bits, power;
+    unsigned bits, power;
     float f, f2, slope;
     memcpy(&bits, &x, sizeof bits);
-    power = (bits - 0x3F3504F3) & ~0x007FFFFF; /* as lobe_log */
+    power = (bits - 0x3F3504F3u) & ~0x007FFFFFu; /* as lobe_log */
     bits -= power;
     memcpy(&f, &bits, sizeof f);
     f -= 1;
     f2 = f * f;
     slope = (1.44269973f - 0.721375871f * f) +
             f2 * ((0.480465014f - 0.358961895f * f) + f2 * ((0.297262908f - 0.272697535f * f) + f2 * 0.170632825f));
-    return 1.1920929e-7f * (float)power + f * slope;
+    return 1.1920929e-7f * (float)(int)power + f * slope;
 }
 
 /* x^n for n in 0 .. 15 */
@@ -116,7 +116,7 @@ LOBE_INLINE float lobe_bilateral_power(float x, int n) {
 /* The overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj). A little too large, but at most 1, so that
    it is 1 for equal ones. */
 LOBE_INLINE float lobe_bilateral_overlap(float ti, float tj, float inverse) {
-    return lobe_at_most(4.00000191f * (ti * inverse) * (tj * inverse), 1);
+    return lobe_at_most(4.00000191f * ((ti * inverse) * (tj * inverse)), 1);
 }
 
 LOBE_API float lobe_bilateral_width(float sharpness) {
@@ -380,7 +380,7 @@ LOBE_INLINE lobe_bilateral_pair lobe_bilateral_pair_of(bilateral_sg_part a, bila
 /* 2^-x = 2^(whole - 127) 2^r for x in [0, 125]; returns whole, from 2 to 127. */
 LOBE_INLINE int lobe_bilateral_split(float x, float *r) {
     int whole;
-    x = lobe_at_most(x, 125);
+    x = lobe_at_most(lobe_at_least(x, 0), 125);
     whole = (int)(127.5f - x);
     *r = (float)(127 - whole) - x; /* of integers: in floats it could be added in another order */
     return whole;

@@ -28,7 +28,8 @@
 
  Images are 1 to 32768 texels wide and high. Texels that are infinite, NaN or 2^96 (7.9e28) and more in magnitude
  count as 0. In a PDF so do negative ones and those below 2^-96 (1.3e-29), and a PDF without any mass is uniform.
- Other arguments must be finite. Out of any image comes no NaN and no infinity.
+ Other arguments must be finite: what is not leads to any number, but to no texel outside of the image, save with
+ -ffast-math, which knows no NaN. Out of any image comes no NaN and no infinity.
 
  Functions:
 
@@ -112,7 +113,7 @@ typedef struct fis_cell {
 /* ---- small numerics ---- */
 
 LOBE_API float lobe_fis_clamp(float x, float low, float high) {
-    return x < low ? low : x > high ? high : x;
+    return x > low ? (x < high ? x : high) : low; /* low for NaN: an index stays one */
 }
 
 /* x, or 0 where it is not below 2^96 in magnitude. On bits, since -ffast-math knows no infinities, and as signed

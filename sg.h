@@ -311,10 +311,11 @@ LOBE_API float lobe_log1m_slope(float x) {
     return (0.693147181f * (float)m - f * lobe_log_slope(f)) / x;
 }
 
-/* cos and sin of 2 pi v for v in [0, 1].   [bound lobe_turn abs 1.3e-7] */
+/* cos and sin of 2 pi v for v in [0, 1], clamped to it.   [bound lobe_turn abs 1.3e-7] */
 LOBE_API void lobe_turn(float v, float *cosine, float *sine) {
-    int quarter = (int)(4 * v + 0.5f), odd = quarter & 1, negative = (quarter >> 1) & 1;
-    float r = 4 * v - (float)quarter, r2 = r * r;
+    float turns = 4 * lobe_at_most(lobe_at_least(v, 0), 1);
+    int quarter = (int)(turns + 0.5f), odd = quarter & 1, negative = (quarter >> 1) & 1;
+    float r = turns - (float)quarter, r2 = r * r;
     float s = r * (1.57079637f + r2 * (-0.645963490f + r2 * (0.0796800330f - 0.00460165786f * r2)));
     float c = 1 + r2 * (-1.23370051f + r2 * (0.253669232f + r2 * (-0.0208602883f + 0.000904021726f * r2)));
     *cosine = lobe_select(odd, s, c) * (float)(1 - 2 * (odd ^ negative));

@@ -1014,6 +1014,29 @@ static void ggx_frames(void) {
     test_report(&same);
 }
 
+/* Directions that differ by less than the squares of floats can hold, and sharpness as small */
+static void frames_of_little(void) {
+    test_bound bound = test_bound_of("asg.h", "asg_reflection_lobe", "orthonormal");
+    test_rng rng = {117 + test_seed};
+    int i, k;
+    for (i = 0; i < test_draws(100000); i++) {
+        double n[3], t[3], inputs[5], x = (double)(float)test_log_uniform(&rng, 1e-24, 1e-9);
+        double y = (double)(float)test_log_uniform(&rng, 1e-24, 1e-9), tiny = test_log_uniform(&rng, 1e-42, 1);
+        asg_lobe a;
+        for (k = 0; k < 3; k++) n[k] = k == i % 3 ? (i & 4 ? 1 : -1) : k == (i + 1) % 3 ? x : -y;
+        inputs[0] = i % 3, inputs[1] = x, inputs[2] = y, inputs[3] = tiny;
+        a = asg_reflection_lobe(narrow(n), lobe_vector((float)round(n[0]), (float)round(n[1]), (float)round(n[2])),
+                                100);
+        check_frame(&bound, a, inputs, 3);
+        test_direction(&rng, n);
+        direction_near(&rng, n, REFERENCE_PI / 2, t);
+        inputs[4] = i;
+        a = asg_reflection_lobe_aniso(narrow(n), narrow(t), narrow(n), (float)tiny, (float)(tiny * (1 + i % 2)));
+        check_frame(&bound, a, inputs, 5);
+    }
+    test_report(&bound);
+}
+
 static void half_vector(const double wi[3], const double w[3], double h[3]) {
     int k;
     for (k = 0; k < 3; k++) h[k] = wi[k] + w[k];
@@ -1466,6 +1489,7 @@ const test_case asg_tests[] = {
     {"asg_convolve_consistent", convolve_is_consistent},
     {"asg_convolve_quadrature", convolve_matches_quadrature},
     {"asg_ggx_frames", ggx_frames},
+    {"asg_frames_of_little", frames_of_little},
     {"asg_ggx_curvature", ggx_curvature},
     {"asg_lobes_match_distributions", lobes_match_distributions},
     {"asg_lobes_agree", lobes_agree},

@@ -511,7 +511,11 @@ static void weights_are_weights(void) {
         bilateral_sg a, b;
         bilateral_sg_part parts[2][2];
         int half = 1 + pick(15);
-        float slack = 4e-7f * (1 + beta);
+#ifdef __FAST_MATH__
+        double slack = 4e-7 * (1 + (double)beta);
+#else
+        double slack = 0;
+#endif
         if (k % 50 == 0) i.sharpness = 0;
         if (k % 50 == 1) j.sharpness = 0;
         inputs_of(i, j, (double)beta, inputs);
@@ -522,13 +526,13 @@ static void weights_are_weights(void) {
                      bilateral_depth_weight(vi, vi, beta), 0, inputs);
         check_weight("gaussian_weight", bilateral_gaussian_weight(vj, vi, vi, vj, beta),
                      bilateral_gaussian_weight(vi, vj, vj, vi, beta), bilateral_gaussian_weight(vj, vi, vj, vi, beta),
-                     (double)slack, inputs);
+                     slack, inputs);
         check_weight("sg_weight", bilateral_sg_weight(i, j, beta), bilateral_sg_weight(j, i, beta),
-                     bilateral_sg_weight(i, i, beta), (double)slack, inputs);
+                     bilateral_sg_weight(i, i, beta), slack, inputs);
         a = bilateral_sg_prepare(i, beta);
         b = bilateral_sg_prepare(j, beta);
         check_weight("sg_tap", bilateral_sg_tap(0, a, b, beta), bilateral_sg_tap(0, b, a, beta),
-                     bilateral_sg_tap(0, a, a, beta), (double)slack, inputs);
+                     bilateral_sg_tap(0, a, a, beta), slack, inputs);
         check_weight("sg_tap_power", bilateral_sg_tap_power(0, a, b, half), bilateral_sg_tap_power(0, b, a, half),
                      bilateral_sg_tap_power(0, a, a, half), 0, inputs);
         pair[0][0] = i;
@@ -552,6 +556,88 @@ static void weights_are_weights(void) {
                          bilateral_sg_mixture_tap(0, product[1], beta), bilateral_sg_mixture_tap(0, product[2], beta),
                          5e-5 * (1 + (double)beta), inputs);
         }
+    }
+}
+
+/* Rows of several blocks: each pixel has the weight of its tap, and nothing is written beside the row. */
+static void rows_are_taps(void) {
+    static const int counts[] = {1, 2, 127, 128, 129, 256, 300, 511};
+    enum { MOST = 513, PLANES = 13, LOBES = 2 };
+    static float plane[2][PLANES][MOST], weight[MOST], wanted[MOST];
+    const float *planes[2][PLANES];
+    float beta = 2;
+    int n, form, x, p, k;
+    for (n = 0; n < 3 * (int)(sizeof counts / sizeof *counts); n++) {
+        int count = counts[n / 3];
+        form = n % 3;
+        for (p = 0; p < 2; p++)
+            for (k = 0; k < PLANES; k++) planes[p][k] = plane[p][k];
+        weight[0] = weight[count + 1] = 42;
+        for (x = 0; x < count; x++) {
+            /* no lobe of the second block, and no second one of the first, has a tail */
+            int tails = x / 128 != 1;
+            sg_lobe i[LOBES], j[LOBES];
+            float exponent = (float)(-2 * uniform());
+            weight[1 + x] = exponent;
+            i[0] = random_lobe(tails ? 0.05 : 16, 1e3);
+            i[1] = random_lobe(tails && x / 128 ? 0.05 : 16, 1e3);
+            j[0] = other_lobe(i[0], tails ? 0.05 : 16, 1e3, 1);
+            j[1] = other_lobe(i[1], tails && x / 128 ? 0.05 : 16, 1e3, 1);
+            if (form == 0) {
+                bilateral_sg s[2];
+                s[0] = bilateral_sg_prepare(i[0], beta);
+                s[1] = bilateral_sg_prepare(j[0], beta);
+                for (p = 0; p < 2; p++) {
+                    plane[p][0][x] = s[p].axis.x, plane[p][1][x] = s[p].axis.y, plane[p][2][x] = s[p].axis.z;
+                    plane[p][3][x] = s[p].width;
+                }
+                wanted[x] = bilateral_sg_tap(exponent, s[0], s[1], beta);
+            } else if (form == 1) {
+                bilateral_sg_part s[2][LOBES];
+                float product = 0;
+                int l, m;
+                bilateral_sg_mixture_prepare(i, LOBES, s[0]);
+                bilateral_sg_mixture_prepare(j, LOBES, s[1]);
+                for (p = 0; p < 2; p++) {
+                    for (l = 0; l < LOBES; l++) {
+                        float(*to)[MOST] = plane[p] + PART_PLANES * l;
+                        to[0][x] = s[p][l].axis.x, to[1][x] = s[p][l].axis.y, to[2][x] = s[p][l].axis.z;
+                        to[3][x] = s[p][l].sharpness, to[4][x] = s[p][l].amplitude, to[5][x] = s[p][l].tail;
+                    }
+                }
+                for (l = 0; l < LOBES; l++)
+                    for (m = 0; m < LOBES; m++) product += bilateral_sg_pair(s[0][l], s[1][m]);
+                wanted[x] = bilateral_sg_mixture_tap(exponent, product, beta);
+            } else {
+                bilateral_asg s[2];
+                for (p = 0; p < 2; p++) {
+                    asg_lobe a;
+                    bilateral_asg prepared;
+                    a.z = p ? j[0].axis : i[0].axis;
+                    lobe_frame(a.z, &a.x, &a.y);
+                    a.sharpness_x = p ? j[0].sharpness : i[0].sharpness;
+                    a.sharpness_y = p ? j[1].sharpness : i[1].sharpness;
+                    a.log_amplitude = 0;
+                    prepared = s[p] = bilateral_asg_prepare(a);
+                    plane[p][0][x] = prepared.x.x, plane[p][1][x] = prepared.x.y, plane[p][2][x] = prepared.x.z;
+                    plane[p][3][x] = prepared.y.x, plane[p][4][x] = prepared.y.y, plane[p][5][x] = prepared.y.z;
+                    plane[p][6][x] = prepared.z.x, plane[p][7][x] = prepared.z.y, plane[p][8][x] = prepared.z.z;
+                    plane[p][9][x] = prepared.sharpness_x, plane[p][10][x] = prepared.sharpness_y;
+                    plane[p][11][x] = prepared.own_exponent, plane[p][12][x] = prepared.own_scale;
+                }
+                wanted[x] = bilateral_asg_tap(exponent, s[0], s[1], beta);
+            }
+        }
+        if (form == 0) bilateral_sg_taps(count, planes[0], planes[1], beta, weight + 1);
+        if (form == 1) bilateral_sg_mixture_taps(count, LOBES, planes[0], planes[1], beta, weight + 1);
+        if (form == 2) bilateral_asg_taps(count, planes[0], planes[1], beta, weight + 1);
+        for (x = 0; x < count; x++) {
+            double inputs[5];
+            inputs[0] = form, inputs[1] = count, inputs[2] = x;
+            inputs[3] = (double)weight[1 + x], inputs[4] = (double)wanted[x];
+            test_that(fabs(inputs[3] - inputs[4]) <= 1e-4 * test_slack, "a row's weight is its tap's", inputs, 5);
+        }
+        test_that(weight[0] == 42.0f && weight[count + 1] == 42.0f, "nothing beside the row", NULL, 0);
     }
 }
 
@@ -807,6 +893,7 @@ const test_case bilateral_tests[] = {
     {"bilateral_sg_mixture_opposed", opposed_lobes_match},
     {"bilateral_sg_mixture_quadrature", mixtures_match_quadrature},
     {"bilateral_weights", weights_are_weights},
+    {"bilateral_rows", rows_are_taps},
     {"bilateral_finite", finite_everywhere},
     {"bilateral_kernel", kernel_smooths},
     {"bilateral_merge", merged_lobes_match},

@@ -346,6 +346,8 @@ static void lattice(void) {
         v = (double)fmodl((long double)i * golden, 1.0L);
         test_within(&bound, (double)point.u, (i + 0.5) / n, 1, in, 2);
         test_within(&bound, (double)point.v + 0x1p-25, v, 1, in, 2); /* v is rounded down */
+        test_that(point.v == (float)((unsigned long long)i * 0x9E3779B97F4A7C15u >> 40) * 0x1p-24f, "v is rounded down",
+                  in, 2);
         test_that(point.u >= 0 && point.u < 1 && point.v >= 0 && point.v < 1, "in [0, 1)", in, 2);
     }
     for (n = 1; n <= 987; n += 29) { /* any interval of m / n of v holds about m points */
@@ -362,6 +364,34 @@ static void lattice(void) {
     }
     test_report(&bound);
 }
+
+#ifndef __FAST_MATH__ /* which knows no NaN */
+/* Arguments that are not finite lead to no texel outside of the image: sanitizers see the rest. */
+static void not_finite(void) {
+    enum { WIDTH = 37, HEIGHT = 5 };
+    volatile float zero = 0;
+    const float bad[] = {zero / zero, -zero / zero, 1 / zero, -1 / zero};
+    float *image = make_image(OCTAVES, WIDTH, HEIGHT, 3), value;
+    fis_pyramid p = build_pdf(image, WIDTH, HEIGHT);
+    int i, j;
+    for (i = 0; i < 4; i++) {
+        for (j = 0; j < 4; j++) {
+            double in[2];
+            fis_point place;
+            fis_sample s;
+            in[0] = (double)bad[i], in[1] = (double)bad[j];
+            place.u = bad[i];
+            place.v = bad[j];
+            s = fis_warp(&p, place);
+            test_that(s.u > 0 && s.u < 1 && s.v > 0 && s.v < 1, "a place that is not finite", in, 2);
+            fis_fetch(&p, bad[i], bad[j], bad[i], &value);
+            test_that(value >= 0 && value <= FLT_MAX, "a lookup that is not finite", in, 2);
+        }
+    }
+    free_pyramid(p);
+    free(image);
+}
+#endif
 
 /* Upper critical value of chi-square at a probability of 1e-4: Wilson and Hilferty 1931 */
 static double chi_square_limit(int freedom) {
@@ -1011,6 +1041,9 @@ const test_case fis_tests[] = {{"fis_integral", integral},
                                {"fis_bad_pixels", bad_pixels},
                                {"fis_fetch", fetch},
                                {"fis_lattice", lattice},
+#ifndef __FAST_MATH__
+                               {"fis_not_finite", not_finite},
+#endif
                                {"fis_warp_distribution", warp_distribution},
                                {"fis_warp_support", warp_support},
                                {"fis_warp_borders", warp_borders},

@@ -173,6 +173,7 @@ static void test_log(void) {
 static void test_turn(void) {
     test_bound bound = test_bound_of("sg.h", "lobe_turn", "abs");
     int i;
+    volatile float zero = 0;
     for (i = 0; i <= 200000; i++) {
         float v = i <= 64 ? (float)i / 64 : (float)test_uniform(&test_random), c, s;
         begin();
@@ -180,6 +181,17 @@ static void test_turn(void) {
         lobe_turn(v, &c, &s);
         within(&bound, (double)c, cos(2 * PI * (double)v), 1);
         within(&bound, (double)s, sin(2 * PI * (double)v), 1);
+    }
+    { /* outside of [0, 1] as at the nearer end, since it becomes an integer */
+        const float outside[] = {-1e30f, -0.3f, 1.2f, 1e30f, 1 / zero, zero / zero, -zero / zero};
+        for (i = 0; i < COUNT(outside); i++) {
+            float c, s;
+            begin();
+            record((double)outside[i]);
+            lobe_turn(outside[i], &c, &s);
+            within(&bound, (double)c, 1, 1);
+            within(&bound, (double)s, 0, 1);
+        }
     }
     test_report(&bound);
 }

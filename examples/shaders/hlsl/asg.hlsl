@@ -264,7 +264,7 @@ asg_lobe asg_reflection_lobe_aniso(float3 normal, float3 tangent, float3 wi, flo
     float largest = 0.5 * (dot(px, px) + dot(py, py)) + radius, area = g.x * stretch * g.y;
     float2 turn = spread > 0.0 ? float2(mixed, radius + spread) : float2(radius - spread, mixed);
     float size = sqrt(dot(turn, turn));
-    turn = size > 1e-30 ? turn * (1.0 / size) : float2(1.0, 0.0);
+    turn = size > 1e-15 ? turn * (1.0 / size) : float2(1.0, 0.0);
     turned.x = a.x * turn.x - a.y * turn.y;
     turned.y = a.x * turn.y + a.y * turn.x;
     turned.sharpness_x = area * (area / max(max(largest, area), 1e-30)); // determinant: area^2

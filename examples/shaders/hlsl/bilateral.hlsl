@@ -37,7 +37,7 @@ float lobe_bilateral_power(float x, int n) {
 
 // The overlap 4 ti tj / (ti + tj)^2 of two widths, given 1 / (ti + tj): 1 for equal ones
 float lobe_bilateral_overlap(float ti, float tj, float inverse) {
-    return min(4.00000191 * (ti * inverse) * (tj * inverse), 1.0);
+    return min(4.00000191 * ((ti * inverse) * (tj * inverse)), 1.0);
 }
 
 float lobe_bilateral_squared(float3 a, float3 b) {
