@@ -24,6 +24,7 @@ rows hard_cases.csv 30 function,case,got,wanted,error,unit,limit,printed_got,pri
 rows fis.csv 30 "pdf,method,ours,texels,level_rms,level_max,gap,overlap,brightest,total$(spread level_ns)"
 rows growth.csv 40 "pipeline,axis,count$(spread time_ms)"
 rows vsgl.csv 30 "pdf,lights,method,k,shadows_ms,gap,overlap,firefly,flicker_noise,rmse,error,power$(spread generation_ms shading_ms)"
+rows vsgl-generation.csv 16 pdf,method,both_ms
 rows glossy_plane.csv 15 "material,panel,rmse,relative$(spread pixel_ns)"
 rows light_culling.csv 30 "scene,alpha,delta,volume,lights,false_positives,in_volume,rmse,denoised$(spread bounds_ms culling_ms shading_ms total_ms)"
 rows env_lights.csv 12 "lights,rule,diffuse,alpha_3,alpha_1,power$(spread build_ms sampling_ms shading_ms)"

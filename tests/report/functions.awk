@@ -60,7 +60,7 @@ function draw(    i, height, color, list) {
     for (i = 1; i <= forms; i++)
         style_label(style_share("y", ns[i]), style_place("x", most[i] == "" ? rms[i] : most[i]), ns[i], csv_text(form[i]),
             style_color(ours[i] ? 1 : 2))
-    height = 240 + (forms > 5 ? (forms - 5) * 18 : 0)
+    height = 240 + (forms > 5 ? (forms - 5) * 24 : 0)
     style_head(folder "/functions-" plots ".svg", height, csv_text(title), "error, in " csv_text(unit), "ns, vector loop")
     style_axis("x")
     style_axis("y")

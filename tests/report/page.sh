@@ -72,7 +72,7 @@ END
         plot "vsgl-$pdf-k" "error against K, PDF $pdf"
         table vsgl.csv 'lights=lights,method=method,k=K,generation_ms=generation ms,shadows_ms=shadows ms,shading_ms=shading ms,gap=gap %,overlap=overlap %,firefly=brightest / mean,flicker_noise=flicker,rmse=RMSE,error=error,power=power' "pdf=$pdf"
     done
-    data vsgl.csv
+    data vsgl.csv vsgl-generation.csv
 }
 
 culling() {
@@ -136,7 +136,7 @@ filter() {
         plot "lobe_filter-normals-$group" 'mean square error over the variance of normals'
         plot "lobe_filter-lobes-$group" 'mean square error over beta of lobes'
     done
-    data lobe_filter.csv lobe_filter-normals.csv lobe_filter-lobes.csv lobe_filter-similarity.csv
+    data lobe_filter.csv lobe_filter-normals.csv lobe_filter-lobes.csv lobe_filter-similarity.csv lobe_filter-upsampling.csv
 }
 
 papers() {

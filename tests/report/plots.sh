@@ -25,12 +25,13 @@ draw functions functions.csv -v folder="$folder"
 if [ "$(values limits.csv fraction)" ]; then draw limits limits.csv -v out="$folder/limits.svg"; fi
 
 kernels=$(values vsgl.csv lights k=2/4/8 | head -n 1)
+sized=$(values vsgl.csv method k=2/4/8 | paste -s -d / -)
 values vsgl.csv pdf | while read -r pdf; do
     curves "vsgl-$pdf" vsgl.csv generation_ms+shadows_ms+shading_ms error method "pdf=$pdf&k=1/" \
         'ms: generation, shadow maps and shading' 'mean error / mean' "lights by the PDF $pdf, their number growing from left to right" -v by=lights
     curves "vsgl-$pdf-generation" vsgl.csv generation_ms error method "pdf=$pdf&k=1/" \
         'ms: generation' 'mean error / mean' "the same, over the time of generation alone" -v by=lights
-    curves "vsgl-$pdf-k" vsgl.csv k error method "pdf=$pdf&k=1/2/4/8&lights=$kernels" \
+    curves "vsgl-$pdf-k" vsgl.csv k error method "pdf=$pdf&lights=$kernels&method=$sized" \
         'K, size of kernels in shares of a light' 'mean error / mean' "$kernels lights by the PDF $pdf"
 done
 values light_culling.csv scene | while read -r scene; do
@@ -48,7 +49,7 @@ values glossy_plane.csv material | while read -r material; do
 done
 values lobe_filter.csv scene | while read -r scene; do
     curves "lobe_filter-$scene" lobe_filter.csv filter_ms best_mse method "scene=$scene" 'ms a megapixel' \
-        'mean square error, best parameter' "$scene, radius growing"
+        'mean square error, best parameter' "$scene, radius growing from left to right" -v by=radius
 done
 for kind in normals lobes; do
     [ -e "$folder/lobe_filter-$kind.csv" ] || continue
