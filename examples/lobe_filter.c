@@ -788,6 +788,10 @@ static void find_upsampling_best(const upsampler *first, const frame *f, const c
 
 enum { UPSAMPLERS = 8 };
 
+static const char upsampling_columns[] =
+    "method,in_time,anew,mse,poor,weights_ms,weights_ms_low,weights_ms_high,shading_ms,shading_ms_low,shading_ms_high,"
+    "total_ms,total_ms_low,total_ms_high";
+
 static void show_upsampling(const settings *o) {
     static const subject what = {"upsampling", scene_gallery, look_tiles, 0};
     const int width = o->size.width, height = o->size.height;
@@ -796,7 +800,10 @@ static void show_upsampling(const settings *o) {
     upsampler u[UPSAMPLERS];
     image sheet = image_create(SHEET_COLUMNS * width, 2 * height);
     progress line = progress_begin("upsampling", FRAMES);
-    double coarse_ms = 0, full_ms, count = 0;
+    double coarse_ms, full_ms, count = 0;
+    enum { WEIGHTS, SHADING, TOTAL, TIMES };
+    timing taken[UPSAMPLERS][TIMES];
+    csv table = csv_begin(upsampling_columns);
     frame f, last;
     coarse low;
     truth wanted;
@@ -805,6 +812,7 @@ static void show_upsampling(const settings *o) {
     low.height = height / UPSAMPLE_CELL;
     low.colours = (vec3 *)allocate("images", (size_t)(low.width * low.height), sizeof *low.colours);
     memset(u, 0, sizeof u);
+    memset(taken, 0, sizeof taken);
     for (k = 0; k < UPSAMPLERS; k++) {
         u[k].lobes = k & 1;
         u[k].temporal = k >> 1 & 1;
@@ -829,8 +837,13 @@ static void show_upsampling(const settings *o) {
         shade_coarse(&f, &low, number, o->reference, seed);
         coarse_ms = progress_clock() - started;
         for (k = 0; k < UPSAMPLERS; k++) {
-            if (u[k].temporal || number == FRAMES - 1)
-                upsample(&u[k], &f, number > 0 ? &last : NULL, motion, &low, o->reference, seed);
+            const int is_timed = number >= FRAMES - ROUNDS && timing_goes_on(&taken[k][TOTAL], 1, ROUNDS, LIMIT_MS);
+            if (!u[k].temporal && !is_timed && number < FRAMES - 1) continue;
+            upsample(&u[k], &f, number > 0 ? &last : NULL, motion, &low, o->reference, seed);
+            if (!is_timed) continue;
+            timing_add(&taken[k][WEIGHTS], u[k].filter_ms);
+            timing_add(&taken[k][SHADING], coarse_ms + u[k].shade_ms);
+            timing_add(&taken[k][TOTAL], coarse_ms + u[k].shade_ms + u[k].filter_ms);
         }
         if (number > 0) frame_free(&last);
         progress_step(&line);
@@ -849,10 +862,19 @@ static void show_upsampling(const settings *o) {
         "MSE", "poor or", "weights", "shading", "total");
     printf("%-34s%10s%12s%10s%12s%10s\n", "", "", "recomputed", "ms", "ms", "ms");
     for (k = 0; k < UPSAMPLERS; k++) {
+        const double error = error_of(&f, &u[k].result, &wanted), poor = 100 * u[k].recomputed / count;
+        quartiles ms[TIMES];
+        for (i = 0; i < TIMES; i++) ms[i] = timing_quartiles(&taken[k][i]);
         printf("%-9s%-16s%-9s%10.5f%10.2f %%%10.2f%12.1f%10.1f\n", u[k].lobes ? "lobes," : "normals,",
-               u[k].temporal ? "space and time" : "space", u[k].adaptive ? " anew" : "",
-               error_of(&f, &u[k].result, &wanted), 100 * u[k].recomputed / count, u[k].filter_ms,
-               coarse_ms + u[k].shade_ms, u[k].filter_ms + coarse_ms + u[k].shade_ms);
+               u[k].temporal ? "space and time" : "space", u[k].adaptive ? " anew" : "", error, poor,
+               ms[WEIGHTS].median, ms[SHADING].median, ms[TOTAL].median);
+        csv_text(&table, u[k].lobes ? "lobes" : "normals");
+        csv_count(&table, u[k].temporal);
+        csv_count(&table, u[k].adaptive);
+        csv_error(&table, error);
+        csv_error(&table, poor);
+        for (i = 0; i < TIMES; i++) csv_quartiles(&table, ms[i]);
+        csv_row(&table);
     }
     find_upsampling_best(u, &f, &low, &wanted, seed);
     for (k = 0; k < SHEET_COLUMNS - 1; k++) {
@@ -863,6 +885,7 @@ static void show_upsampling(const settings *o) {
     printf("\n");
     write_picture(o->out, "-upsampling.png", &sheet,
                   "by normals; by lobes; in time too; and anew where poor; reference; errors below");
+    csv_end(&table, o->out, "-upsampling.csv", "the numbers of upsampling");
     for (k = 0; k < UPSAMPLERS; k++) {
         image_free(&u[k].result);
         image_free(&u[k].history);
@@ -1005,8 +1028,8 @@ static int is_shown(const settings *o, int i) {
 }
 
 static void check_study_files(const settings *o) {
-    static const char *const rests[] = {".csv",       "-similarity.csv", "-normals.csv",
-                                        "-lobes.csv", "-weights.png",    "-upsampling.png"};
+    static const char *const rests[] = {
+        ".csv", "-similarity.csv", "-normals.csv", "-lobes.csv", "-upsampling.csv", "-weights.png", "-upsampling.png"};
     char rest[64];
     int i;
     for (i = 0; i < (int)(sizeof rests / sizeof *rests); i++) output_check(o->out, rests[i]);
