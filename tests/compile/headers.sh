@@ -81,9 +81,9 @@ END
         $2 "$folder/caller.o" "$folder/defined.o" -o "$folder/external" -lm && "$folder/external"
 }
 
-overridden() { # compiler and flags
-    "$@" '-DLOBE_API=static inline __attribute__((unused))' -I. -fsyntax-only "$folder/all.c" &&
-        "$@" '-DLOBE_API=static inline' '-DLOBE_FIS_READ(value)=(value)' -I. -fsyntax-only "$folder/all.c"
+overridden() { # compiler and flags; compiled in full, as gcc tells only then what is unused
+    "$@" '-DLOBE_API=static inline __attribute__((unused))' -I. -c "$folder/all.c" -o "$folder/all.o" &&
+        "$@" '-DLOBE_API=static inline' '-DLOBE_FIS_READ(value)=(value)' -I. -c "$folder/all.c" -o "$folder/all.o"
 }
 
 # Without what gcc and clang add to the language: the way that other compilers go.
