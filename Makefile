@@ -95,10 +95,19 @@ clean:
 $(EXAMPLES:%=$(BUILD)/%): $(BUILD)/%: examples/%.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(OPENMP) $< $(COMMON) -o $@ -lm
 
-# tests/raster.c includes examples/common/raster.c, to count its memory.
-$(BUILD)/tests: $(TESTS) examples/common/file.c $(wildcard tests/*.h examples/common/raster.* examples/common/file.h) \
-                $(HEADERS) $(BUILD)/flags
-	$(COMPILE) $(TESTS) examples/common/file.c -o $@ -lm
+# Two at a time, also where make was not told so. tests/raster.c includes examples/common/raster.c, to count its memory.
+TEST_OBJECTS = $(TESTS:tests/%.c=$(BUILD)/unit/%.o) $(BUILD)/unit/file.o
+
+$(BUILD)/tests: force | $(BUILD)/flags
+	@mkdir -p $(BUILD)/unit
+	@+$(MAKE) -j2 --no-print-directory $(TEST_OBJECTS)
+	$(COMPILE) $(TEST_OBJECTS) -o $@ -lm
+
+$(BUILD)/unit/%.o: tests/%.c $(wildcard tests/*.h examples/common/raster.* examples/common/file.h) $(HEADERS) $(BUILD)/flags
+	$(COMPILE) -c $< -o $@
+
+$(BUILD)/unit/file.o: examples/common/file.c examples/common/file.h $(BUILD)/flags
+	$(COMPILE) -c $< -o $@
 
 # The loops are compiled twice: as vector and as scalar code, by nothing but -O3 for this machine, in the C that
 # compilers default to, which contracts a * b + c.

@@ -41,10 +41,10 @@ case $quick in
     plane=
     culling='--size 480x360'
     env='--lights 4,16,64,256,1024'
-    filter='--size 160x120 --samples 8 --reference 256 --radius 8,2,4,12'
+    filter='--size 160x120 --samples 8 --reference 256 --radius 8,2,4,16'
     ;;
 *)
-    vsgl='--size 48x36 --samples 16 --frames 2 --view 160x96 --view-lights 128' lights=16,64 some=64 kernels=4
+    vsgl='--size 48x36 --samples 16 --frames 2 --view 160x96 --view-lights 128' lights=16,64 some=1024 kernels=4
     plane='--size 64x80 --samples 768'
     culling='--size 96x72 --tile 4 --deltas 6.4,0.1'
     env='--size 32x32 --lights 4,16,64'
@@ -64,5 +64,6 @@ esac
     run lobe_filter 'filters, their radii and parameters' lobe_filter $filter
 }
 join_runs "$folder/vsgl.csv" 4 "$out/vsgl.csv" "$out/vsgl-fast.csv" "$out/vsgl-density.csv"
-move vsgl-generation glossy_plane light_culling env_lights lobe_filter lobe_filter-similarity lobe_filter-normals \
+mv "$out/vsgl-fast-generation.csv" "$folder/vsgl-generation.csv" || exit 1 # of as many lights as the paper has
+move glossy_plane light_culling env_lights lobe_filter lobe_filter-similarity lobe_filter-normals \
     lobe_filter-lobes lobe_filter-upsampling

@@ -25,7 +25,7 @@ run() { # what it is, command...
 }
 
 programs() {
-    "$make" -s "$build/bench" "$build/growth" "$build/vsgl" "$build/glossy_plane" "$build/light_culling" \
+    "$make" -s -j "$(getconf _NPROCESSORS_ONLN)" "$build/bench" "$build/growth" "$build/vsgl" "$build/glossy_plane" "$build/light_culling" \
         "$build/env_lights" "$build/lobe_filter" >&2
 }
 functions() { "$build/bench" --csv "$folder" ${less:+"$less"} > "$folder/bench.txt"; }
