@@ -489,6 +489,22 @@ static void amplitudes(void) {
             }
         }
     }
+    { /* also that of a reflection lobe, up to e^10 */
+        lobe_vec3 normal = lobe_vector(0, 0, 1), wi = lobe_vector(0, -0.6f, 0.8f), place = lobe_vector(0, 0, 0);
+        asg_lobe reflection = asg_ggx_lobe(normal, wi, 0.3f);
+        vsgl light;
+        double plain, wanted;
+        memset(&light, 0, sizeof light);
+        light.position = lobe_vector(0, 3, 4);
+        light.variance = 0.01f;
+        light.emission[0].axis = lobe_vector(0, -0.6f, -0.8f);
+        light.emission[0].sharpness = 2;
+        plain = (double)asg_vsgl_specular(light, VSGL_DIFFUSE, place, normal, wi, 0.3f, reflection);
+        reflection.log_amplitude = 9.9f;
+        wanted = plain * exp((double)reflection.log_amplitude);
+        test_within(&bound, (double)asg_vsgl_specular(light, VSGL_DIFFUSE, place, normal, wi, 0.3f, reflection), wanted,
+                    wanted, &plain, 1);
+    }
 }
 
 static void form_named_cases(void) {

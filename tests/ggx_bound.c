@@ -958,6 +958,35 @@ static void test_normalisation(void) {
     test_report(&furnace);
 }
 
+/* A tangent counts down to .001 of the normal; nearer, any does, whichever is given. */
+static void test_tangents_near(void) {
+    test_bound same = stated("as the perpendicular tangent", 2e-3);
+    int i;
+    for (i = 0; i < 20000; i++) {
+        lobe_vec3 normal, h, tangent, other;
+        double angle;
+        float ax, ay, wanted;
+        vec n, t;
+        begin();
+        record_vector(normal = nearly_unit(random_direction()));
+        n = unit(wide(normal));
+        t = perpendicular(n);
+        ax = (float)record(log_uniform(0.3, 1));
+        ay = (float)record(log_uniform(0.3, 1));
+        record_vector(h = nearly_unit(towards(n, perpendicular(n), 1.5 * uniform())));
+        angle = record(log_uniform(.00105, .1));
+        record_vector(tangent = nearly_unit(towards(n, t, angle)));
+        wanted = ggx_ndf_aniso(h, normal, narrow(t), ax, ay);
+        within(&same, (double)ggx_ndf_aniso(h, normal, tangent, ax, ay), (double)wanted, (double)wanted);
+        angle = record(log_uniform(1e-8, .00095));
+        record_vector(tangent = nearly_unit(towards(n, t, angle)));
+        record_vector(other = nearly_unit(towards(n, perpendicular(n), angle)));
+        wanted = ggx_ndf_aniso(h, normal, other, ax, ay);
+        within(&same, (double)ggx_ndf_aniso(h, normal, tangent, ax, ay), (double)wanted, (double)wanted);
+    }
+    test_report(&same);
+}
+
 /* At the finest roughness, where floats are scarce, against long double */
 static void test_sharp(void) {
     test_bound bound = bound_of("ggx_ndf", "angular");
@@ -1522,6 +1551,7 @@ static void test_special_cases(void) {
 
 const test_case ggx_bound_tests[] = {{"ggx_ndf", test_ndf},
                                      {"ggx_sharp", test_sharp},
+                                     {"ggx_tangents_near", test_tangents_near},
                                      {"ggx_smith", test_smith},
                                      {"ggx_brdf", test_brdf},
                                      {"ggx_normalisation", test_normalisation},
