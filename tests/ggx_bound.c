@@ -1211,6 +1211,34 @@ static double share(long part, long whole) {
     return p - 4.5 * sqrt(p * (1 - p) / (double)whole);
 }
 
+/* A box beside the ellipsoid's own bounding box is not hit, by more than the growth that covers rounding. */
+static void test_boxes_beside(void) {
+    int i, k;
+    for (i = 0; i < 50000; i++) {
+        ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-2, 1e4), 1e-4);
+        double size = (double)e.radius[0], center[3], half[3], extent[3], reach = 0;
+        int beside = pick(3);
+        e.center = narrow(combine(3 * size * uniform(), random_direction(), 0, random_direction()));
+        for (k = 0; k < 3; k++) {
+            vec axis = of(k == 0, k == 1, k == 2);
+            extent[k] = sqrt(covariance(&e, axis, axis));
+            half[k] = (double)float_of(size * log_uniform(1e-3, 10));
+            reach += extent[k] + half[k];
+        }
+        for (k = 0; k < 3; k++) {
+            double away = k == beside ? (pick(2) ? 1 : -1) * (extent[k] + half[k] + 1e-5 * (reach + 2 * size))
+                                      : (2 * uniform() - 1) * (extent[k] + half[k]);
+            center[k] = component(wide(e.center), k) + away;
+        }
+        record_ellipsoid(&e);
+        record_vector(narrow(of(center[0], center[1], center[2])));
+        record_vector(narrow(of(half[0], half[1], half[2])));
+        that(!ggx_ellipsoid_hits_box(e, narrow(of(center[0], center[1], center[2])),
+                                     narrow(of(half[0], half[1], half[2]))),
+             "a box beside the bounding box is not hit");
+    }
+}
+
 static void test_boxes_near(void) {
     test_bound false_hits = bound_of("ggx_ellipsoid_hits_box", "false_hits");
     long apart = 0, told = 0;
@@ -1568,6 +1596,7 @@ const test_case ggx_bound_tests[] = {{"ggx_ndf", test_ndf},
                                      {"ggx_bound_volumes_aniso", test_volumes_aniso},
                                      {"ggx_bound_diffuse", test_diffuse},
                                      {"ggx_boxes", test_boxes},
+                                     {"ggx_boxes_beside", test_boxes_beside},
                                      {"ggx_boxes_near", test_boxes_near},
                                      {"ggx_transform", test_transform},
                                      {"ggx_tiles", test_tiles},
