@@ -13,7 +13,7 @@ JOBS = 2
 # What this compiler has: tuning for this machine, threads. Each is used only if a program links with it.
 has = $(shell mkdir -p $(BUILD) && echo 'int main(void) { return 0; }' > $(BUILD)/probe.c && \
         $(CC) $(1) $(BUILD)/probe.c -o $(BUILD)/probe 2>/dev/null && echo '$(1)')
-ifeq ($(filter help clean,$(MAKECMDGOALS)),)
+ifeq ($(filter help clean install uninstall,$(MAKECMDGOALS)),)
 NATIVE := $(call has,-march=native)
 OPENMP := $(call has,-fopenmp)
 endif
@@ -33,8 +33,19 @@ $(EXAMPLES): %: $(BUILD)/%
 test: $(BUILD)/tests headers readme vectors
 	$(BUILD)/tests $(ARGS)
 
+# As drop-in as it says: tests/compile/check.sh lists the steps. JOBS of them run at a time, ARGS=NAME some of them.
+JOBS = 2
+
+check: $(BUILD)/flags
+	@MAKE="$(MAKE)" JOBS=$(JOBS) sh tests/compile/check.sh $(BUILD) "$(ARGS)"
+
 bench: $(BUILD)/bench
 	$(BUILD)/bench $(ARGS)
+
+# A page of it all, and of the examples, in BUILD/report; by QUICK=1 less of each.
+report: force
+	@sh tests/report/report.sh $(BUILD) '$(QUICK)' $(MAKE) '$(CC)'
+	@sh tests/report/check.sh $(BUILD)/report
 
 help:
 	@echo 'make                 builds and runs the main example: one-bounce glossy indirect light'
@@ -45,16 +56,38 @@ help:
 	@echo 'make gpu             the shaders on a Vulkan device beside the same on the CPU: pictures and times'
 	@echo '                     each takes ARGS="--help"'
 	@echo 'make test            compiles each header alone, the README'\''s snippet and the loops, then runs the unit tests'
+	@echo 'make check           make test, and the headers in all C and C++ there is, under other flags, on other machines,'
+	@echo '                     after hostile headers, in programs by CMake and pkg-config: 12 minutes on 2 cores'
 	@echo 'make bench           speed beside error of every function, ours and the alternatives (ARGS=sg_eval for one)'
+	@echo 'make report          measures all that, the examples and how costs grow, and writes a page of plots and tables; QUICK=1 less'
 	@echo 'make fuzz            SECONDS=60 of random arguments for each header, and random files for the readers (FUZZ=fis for one)'
 	@echo 'make mutation        whether the unit tests notice COUNT=60 small faults of each header (all, SEED=1, HEADER=sg.h, JOBS=2)'
 	@echo 'make test-shaders    compiles the shaders in both languages and runs them on a Vulkan device, by the same unit tests'
 	@echo 'make hlsl            makes the HLSL shaders anew from the GLSL ones'
-	@echo 'make setup           installs the Debian packages that shaders take'
+	@echo 'make setup           installs the Debian packages that these take'
+	@echo 'make pictures        the README'\''s pictures anew, by netpbm and gnuplot'
+	@echo 'make install         copies the headers to PREFIX=/usr/local, below DESTDIR, with lobe.pc; make uninstall'
 	@echo 'make clean           deletes $(BUILD)/'
 	@echo 'make help            prints this'
 	@echo
 	@echo 'CC=clang, CFLAGS=..., BUILD=directory, WERROR=1 and ARGS=... may be added to each'
+
+VERSION = $(shell awk '$$2 == "LOBE_VERSION" && NF > 2 { printf "%d.%d.%d", $$3 / 10000, $$3 / 100 % 100, $$3 % 100; exit }' sg.h)
+PREFIX = /usr/local
+INSTALL_HEADERS = $(DESTDIR)$(PREFIX)/include/lobe
+INSTALL_PKGCONFIG = $(DESTDIR)$(PREFIX)/share/pkgconfig
+
+install:
+	mkdir -p $(INSTALL_HEADERS) $(INSTALL_PKGCONFIG)
+	cp $(HEADERS) $(INSTALL_HEADERS)
+	chmod 644 $(HEADERS:%=$(INSTALL_HEADERS)/%)
+	printf '%s\n' 'prefix=$(PREFIX)' '' 'Name: lobe' 'Description: glossy many-light rendering, header-only' \
+	    'Version: $(VERSION)' 'Cflags: -I$${prefix}/include/lobe' 'Libs: -lm' > $(INSTALL_PKGCONFIG)/lobe.pc
+	chmod 644 $(INSTALL_PKGCONFIG)/lobe.pc
+
+uninstall:
+	rm -f $(HEADERS:%=$(INSTALL_HEADERS)/%) $(INSTALL_PKGCONFIG)/lobe.pc
+	[ ! -d $(INSTALL_HEADERS) ] || rmdir $(INSTALL_HEADERS)
 
 clean:
 	rm -rf $(BUILD)
@@ -71,17 +104,34 @@ $(BUILD)/tests: $(TESTS) examples/common/file.c $(wildcard tests/*.h examples/co
 # compilers default to, which contracts a * b + c.
 BENCH_COMPILE = $(CC) -std=gnu99 $(WARN) -O3 $(NATIVE)
 BENCH_LOOPS = $(wildcard tests/bench/*_loops.c)
-BENCH_SOURCES = $(filter-out $(BENCH_LOOPS),$(wildcard tests/bench/*.c)) tests/random.c
-BENCH_OBJECTS = $(BENCH_LOOPS:tests/bench/%.c=$(BUILD)/%_scalar.o) $(BENCH_LOOPS:tests/bench/%.c=$(BUILD)/%_vector.o)
+BENCH_SOURCES = $(filter-out $(BENCH_LOOPS),$(wildcard tests/bench/*.c)) tests/random.c tests/bounds.c \
+                $(addprefix examples/common/,csv.c fail.c file.c image.c output.c progress.c)
+BENCH_KINDS = scalar vector $(BENCH_COUNTED)
+BENCH_OBJECTS = $(foreach kind,$(BENCH_KINDS),$(BENCH_LOOPS:tests/bench/%.c=$(BUILD)/%_$(kind).o))
 
-$(BUILD)/bench: $(BENCH_SOURCES) $(BENCH_OBJECTS)
-	$(COMPILE) $^ -o $@ -lm
+# Where the compiler knows C++, a third time, as code that counts its floating-point operations.
+ifeq ($(filter help clean,$(MAKECMDGOALS)),)
+BENCH_COUNTED := $(shell $(CC) -x c++ -std=c++17 -include math.h -fsyntax-only /dev/null 2>/dev/null && echo counted)
+endif
+
+$(BUILD)/bench: $(BENCH_SOURCES) $(BENCH_OBJECTS) $(wildcard tests/*.h tests/bench/*.h examples/common/*.h) $(HEADERS)
+	$(COMPILE) $(BENCH_COUNTED:counted=-DBENCH_HAS_COUNTED) $(BENCH_SOURCES) $(BENCH_OBJECTS) -o $@ -lm
+
+$(BUILD)/%_counted.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEADERS) $(BUILD)/flags
+	$(CC) -x c++ -std=c++17 -O1 -fno-exceptions -include tests/bench/counted.h -c $< -o $@
 
 $(BUILD)/%_vector.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEADERS) $(BUILD)/flags
 	$(BENCH_COMPILE) -c $< -o $@
 
 $(BUILD)/%_scalar.o: tests/bench/%.c $(wildcard tests/*.h tests/bench/*.h) $(HEADERS) $(BUILD)/flags
 	$(BENCH_COMPILE) -DBENCH_SCALAR -fno-tree-vectorize -fno-tree-slp-vectorize -c $< -o $@
+
+# Time against size. Without threads, so that what is timed is one of them, and not what others take from it. culling.c
+# includes examples/light_culling.c, for its stages.
+GROWTH = $(wildcard tests/growth/*.c) $(COMMON)
+
+$(BUILD)/growth: $(GROWTH) examples/light_culling.c $(wildcard tests/growth/*.h examples/common/*.h) $(HEADERS) $(BUILD)/flags
+	$(COMPILE) $(GROWTH) -o $@ -lm
 
 # Each of tests/fuzz for some seconds, from the files that a script beside it makes. What it learns stays in BUILD/fuzz.
 FUZZ_CC = $(if $(findstring clang,$(CC)),$(CC),clang)
@@ -122,21 +172,26 @@ headers: $(BUILD)/flags
 vectors: $(BUILD)/flags
 	@sh tests/compile/vectors.sh $(CC) $(BUILD)
 
-# The README's first block of C, as printed.
+# What the README and the other pages say.
 readme: $(BUILD)/flags
-	@awk '/^```/ { if (inside) exit; inside = /^```c$$/; next } inside' README.md > $(BUILD)/readme.c
-	@$(CC) -std=c99 $(WARN) -Werror -I. $(BUILD)/readme.c -o $(BUILD)/readme -lm
-	@$(BUILD)/readme > /dev/null && echo "ok     snippet of the README"
+	@sh tests/compile/readme.sh $(CC) $(BUILD)
+
+pictures: $(EXAMPLES:%=$(BUILD)/%)
+	sh examples/images/make.sh $(BUILD)
 
 # Shaders. Those of glsl/ are the source, those of hlsl/ are made from them by `make hlsl`.
 GLSL = examples/shaders/glsl
 HLSL = examples/shaders/hlsl
 SHADERS = $(wildcard $(GLSL)/* $(HLSL)/* examples/shaders/hlsl.sh)
 SHADER_PACKAGES = glslang-tools spirv-tools mesa-vulkan-drivers libvulkan-dev
+REPORT_PACKAGES = gnuplot-nox
+CHECK_PACKAGES = gcc g++ libc6-dev clang libclang-rt-dev libomp-dev tcc cmake pkg-config netpbm qemu-user wine wine64 gcc-mingw-w64-x86-64 \
+                 gcc-i686-linux-gnu libc6-dev-i386-cross gcc-aarch64-linux-gnu libc6-dev-arm64-cross \
+                 gcc-s390x-linux-gnu libc6-dev-s390x-cross
 
 setup:
 	apt-get update
-	apt-get install -y --no-install-recommends $(SHADER_PACKAGES)
+	apt-get install -y --no-install-recommends $(SHADER_PACKAGES) $(REPORT_PACKAGES) $(CHECK_PACKAGES)
 
 hlsl:
 	@mkdir -p $(HLSL)
@@ -185,4 +240,4 @@ $(BUILD)/flags: force
 	@mkdir -p $(BUILD)
 	@echo '$(COMPILE) $(OPENMP)' | cmp -s - $@ || echo '$(COMPILE) $(OPENMP)' > $@
 
-.PHONY: run $(EXAMPLES) gpu test bench fuzz mutation setup hlsl shader-tools test-shaders help clean headers vectors readme force
+.PHONY: run $(EXAMPLES) gpu test check install uninstall bench report pictures fuzz mutation setup hlsl shader-tools test-shaders help clean headers vectors readme force

@@ -83,8 +83,8 @@ LOBE_API float lobe_asg_square(float x) {
    returns    max(dir.z, 0) exp(log_amplitude - sharpness_x (dir.x)^2 - sharpness_y (dir.y)^2), components
               along the lobe's axes; 0 from the horizon down and below 2^-126, saturates at 2^122
 
-   Rounding: <= 4.5 directional; near the horizon 4.5 2^-24 of the exponential is added
-             [bound asg_eval directional 4.5 over 1e-8 1e10]
+   Rounding: <= 5.5 directional; near the horizon 5.5 2^-24 of the exponential is added
+             [bound asg_eval directional 5.5 over 1e-8 1e10]
    Model:    exact
    Source:   Xu et al. 2013; 000, section 4.2
 */
@@ -124,8 +124,8 @@ LOBE_API float asg_integral(asg_lobe a) {
    returns    pi / sqrt(sharpness_x sharpness_y) times the amplitude
 
    Rounding: below the model's
-   Model:    within 4e-5 relative for sharpness of 10 or more; 1.6 times too large at 1, 10 times at 0.1
-             [bound asg_integral_approx model 4e-5 over 10 1e5]
+   Model:    within 5e-5 relative for sharpness of 10 or more; 1.6 times too large at 1, 10 times at 0.1
+             [bound asg_integral_approx model 5e-5 over 10 1e5]
    Source:   Xu et al. 2013; 000, section 4.2 with an SG of sharpness 0
 */
 LOBE_API float asg_integral_approx(asg_lobe a) {
@@ -143,10 +143,10 @@ LOBE_API float asg_integral_approx(asg_lobe a) {
               pi / sqrt((sharpness_x + nu) (sharpness_y + nu)); 0 for an SG from the horizon down
 
    Rounding: <= 9 directional   [bound asg_sg_integral_xu directional 9 over 1e12 1e18]
-   Model:    within .035 of the value for aligned axes if all sharpnesses are 10 or more; where the value is above 1 %
+   Model:    within .042 of the value for aligned axes if all sharpnesses are 10 or more; where the value is above 1 %
              of that, relative RMS .04, of 500 draws <= .15; several times too large for sharpness below 1; asg_sg_form
              tells more
-             [bound asg_sg_integral_xu aligned .035 over 10 1e6] [bound asg_sg_integral_xu rms .15 over 10 1e6]
+             [bound asg_sg_integral_xu aligned .042 over 10 1e6] [bound asg_sg_integral_xu rms .15 over 10 1e6]
    Source:   Xu et al. 2013; 000, section 4.2; 001, Eq. 2
 */
 LOBE_API float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
@@ -217,7 +217,7 @@ LOBE_API float asg_sg_integral(asg_lobe a, sg_lobe g) {
    a          sharpness [0, 1e30]
    returns    sharpness 2 sqrt(sharpness_x sharpness_y); 0 where one is below 1e-37 of the other
 
-   Rounding: <= 3 ulp   [bound asg_isotropic ulp 3 over 1e-6 1e30]
+   Rounding: <= 3.5 ulp   [bound asg_isotropic ulp 3.5 over 1e-6 1e30]
    Model:    the anisotropy is lost: asg_sg_form tells when that matters
    Source:   an ASG of equal sharpness l is near its axis an SG of sharpness 2 l
 */
@@ -363,10 +363,10 @@ LOBE_INLINE float lobe_asg_clamped_mean(lobe_asg_means m, float *square) {
              Over the geometric mean of the lobes' integrals with themselves it is at most 1 + 3e-4; of lobes of any
              sharpness up to 1e9 it is symmetric to 1.5e-6 of that, and to the last bit where sums are not contracted
              [bound asg_product_integral symmetric 1.5e-6] [bound asg_product_integral excess 3e-4]
-   Model:    within .0125 of that mean, relative RMS .045 where the value is above 1 % of it; for sharpness of 10 or
-             more within .007 relative where it is above 1 % of the mean
+   Model:    within .0125 of that mean, relative RMS .03 where the value is above 1 % of it, of 400 draws <= .06; for
+             sharpness of 10 or more within .007 relative where it is above 1 % of the mean
              [bound asg_product_integral aligned .0125 over 1e-2 1e5]
-             [bound asg_product_integral rms .045 over 1e-2 1e5] [bound asg_product_integral sharp .007 over 10 1e5]
+             [bound asg_product_integral rms .06 over 1e-2 1e5] [bound asg_product_integral sharp .007 over 10 1e5]
    Source:   derived for this library: saddlepoint of the Bingham normaliser, fitted moments, and the arc-cosine kernel
              for both clamped cosines. No eigenvectors: the coefficients of the characteristic polynomial are sums of
              positive terms, where Cardano's formula cancels (004, "Errors of ASGs").
@@ -421,10 +421,10 @@ LOBE_API float asg_product_integral_xu(asg_lobe a, asg_lobe b) {
    returns    the same axes, each sharpness l as l / (1 + 2 l / kappa), the amplitude scaled by
               1 / sqrt((1 + 2 lx / kappa) (1 + 2 ly / kappa))
 
-   Rounding: <= 2.5e-7 relative in sharpness and in 1 + |log_amplitude|
-             [bound asg_convolve rel 2.5e-7 over 1e-8 1e10]
-   Model:    Xu's product integral: values within .03 of the blurred peak, if all sharpnesses are 10 or more
-             [bound asg_convolve model .03 over 10 1e5]
+   Rounding: <= 3e-7 relative in sharpness and in 1 + |log_amplitude|
+             [bound asg_convolve rel 3e-7 over 1e-8 1e10]
+   Model:    Xu's product integral: values within .042 of the blurred peak, if all sharpnesses are 10 or more
+             [bound asg_convolve model .042 over 10 1e5]
    Source:   004, section 4.2, times kappa / (2 pi)
 */
 LOBE_API asg_lobe asg_convolve(asg_lobe a, float kappa) {
@@ -474,8 +474,8 @@ LOBE_API float lobe_asg_half_sharpness(float alpha) {
    returns         peak 1 around the mirror direction z; x in the plane of incidence, on the normal's side, with
                    sharpness h / 4; y across it with h / (4 cos^2); at normal incidence any x
 
-   Rounding: frame orthonormal to 1.1e-6; sharpness within 9 2^-24 / cos relative, what rounding of the directions costs
-             [bound asg_reflection_lobe orthonormal 1.1e-6] [bound asg_reflection_lobe cosine 9]
+   Rounding: frame orthonormal to 1.2e-6; sharpness within 12 2^-24 / cos relative, as rounded directions cost
+             [bound asg_reflection_lobe orthonormal 1.2e-6] [bound asg_reflection_lobe cosine 12]
    Model:    first-order warp of half vectors with its Jacobian at the mirror direction: exact in the limit of sharp
              lobes; what the shape of a distribution adds is told with each
    Source:   Xu et al. 2013; Wang et al. 2009; 000, section 4.2
@@ -496,10 +496,10 @@ LOBE_API asg_lobe asg_reflection_lobe(lobe_vec3 normal, lobe_vec3 wi, float half
    half_sharpness_x, half_sharpness_y  of a distribution like exp(-hx (h.x)^2 - hy (h.y)^2); [0, 1e9]
    returns                             as asg_reflection_lobe, with x the wider axis and y the narrower one
 
-   Rounding: as asg_reflection_lobe; of equal sharpnesses within 22 2^-24 / cos relative
-             [bound asg_reflection_lobe_aniso cosine 22]
-   Model:    as asg_reflection_lobe; against the distribution's the exponent near the axis is within .02
-             [bound asg_reflection_lobe_aniso curvature .02]
+   Rounding: as asg_reflection_lobe; of equal sharpnesses within 25 2^-24 / cos relative
+             [bound asg_reflection_lobe_aniso cosine 25]
+   Model:    as asg_reflection_lobe; against the distribution's the exponent near the axis is within .03
+             [bound asg_reflection_lobe_aniso curvature .03]
    Source:   as asg_reflection_lobe: the form diag(hx, hy) through the warp's Jacobian, its 2x2 matrix diagonalised
 */
 LOBE_API asg_lobe asg_reflection_lobe_aniso(lobe_vec3 normal, lobe_vec3 tangent, lobe_vec3 wi, float half_sharpness_x,
@@ -620,13 +620,13 @@ LOBE_API asg_lobe asg_ashikhmin_lobe(lobe_vec3 normal, lobe_vec3 tangent, lobe_v
    reflection    asg_ggx_lobe(normal, wi, alpha) or any other of log_amplitude at most 10: once for all lights
    returns       reflected radiance per unit of v.intensity[component] and Fresnel reflectance
 
-   Rounding: <= 17 directional   [bound asg_vsgl_specular directional 17]
+   Rounding: <= 22 directional   [bound asg_vsgl_specular directional 22]
              A variance of 0, or below 1e-9 of the squared distance, gives the point light to as much for alpha of .1
              or more
-   Model:    against the integral of incoming lobe, reflection and C: within .05 for lights of a standard
-             deviation up to a tenth of their distance and within alpha of the mirror direction, above grazing
-             incidence
-             [bound asg_vsgl_specular model .05 over .1 .5]
+   Model:    against the integral of incoming lobe, reflection and C: within .125 for lights of a standard
+             deviation up to a tenth of their distance, within alpha of the mirror direction, emission of sharpness 50
+             or less; above grazing incidence: cosines of .3 for the viewer, .2 for the incoming lobe
+             [bound asg_vsgl_specular model .125 over .1 .5]
    Source:   000, section 4.2, with the inverse variance gathered with nu, so that neither overflows. C is the
              peak 1 / (pi alpha^2) times Smith's height-correlated visibility (Heitz 2014) times the cosine,
              constant over the incoming lobe.

@@ -15,7 +15,7 @@
  Configuration, before inclusion:
 
    macro         | default       | effect
-   LOBE_API      | static inline | linkage of every function
+   LOBE_API      | static inline | linkage of every function, with inline
    LOBE_ASSERT   | nothing       | called with each domain condition, e.g. assert
    LOBE_FIS_READ | its argument  | every texel that a lookup reads, and entry of a table that fis_split does, e.g. to count
 
@@ -183,12 +183,17 @@ LOBE_API fis_pyramid lobe_fis_layout(int width, int height, int channels) {
     return p;
 }
 
+/* count * channels numbers of a size; more than any allocation gives where their bytes exceed a size_t */
+LOBE_API size_t lobe_fis_numbers(size_t count, size_t channels, size_t size) {
+    return count <= (size_t)-1 / size / channels ? count * channels : (size_t)-1;
+}
+
 /*
  fis_pyramid_size - memory that a pyramid takes
 
    width, height   [1, 32768]
    channels        1 or more
-   returns         number of floats, all levels together
+   returns         number of floats, all levels together; the largest size_t where memory cannot hold them
 
    Rounding: exact
    Model:    exact
@@ -196,31 +201,32 @@ LOBE_API fis_pyramid lobe_fis_layout(int width, int height, int channels) {
 */
 LOBE_API size_t fis_pyramid_size(int width, int height, int channels) {
     fis_pyramid p = lobe_fis_layout(width, height, channels);
-    return ((size_t)p.offset[p.levels - 1] + 1) * (size_t)channels; /* the top level is one texel */
+    size_t texels = (size_t)p.offset[p.levels - 1] + 1; /* the top level is one texel */
+    return lobe_fis_numbers(texels, (size_t)channels, sizeof(float));
 }
 
 /* One row of a level from two of the level below, or from one: there is no second one where bottom == top. */
-LOBE_API void lobe_fis_halve(float *LOBE_FIS_RESTRICT out, const float *top, const float *bottom, int width,
+LOBE_API void lobe_fis_halve(float *LOBE_FIS_RESTRICT halved, const float *top, const float *bottom, int width,
                              int channels) {
     float scale = bottom != top ? 0.25f : 0.125f;
     int pairs = width / 2, x, c;
     if (channels == 1) { /* vector code along the row, otherwise along the channels */
         for (x = 0; x < pairs; x++)
-            out[x] = scale * ((top[2 * x] + bottom[2 * x]) + (top[2 * x + 1] + bottom[2 * x + 1]));
-        out += pairs;
+            halved[x] = scale * ((top[2 * x] + bottom[2 * x]) + (top[2 * x + 1] + bottom[2 * x + 1]));
+        halved += pairs;
         top += 2 * pairs;
         bottom += 2 * pairs;
     } else {
         for (x = 0; x < pairs; x++) {
             for (c = 0; c < channels; c++)
-                out[c] = scale * ((top[c] + bottom[c]) + (top[channels + c] + bottom[channels + c]));
-            out += channels;
+                halved[c] = scale * ((top[c] + bottom[c]) + (top[channels + c] + bottom[channels + c]));
+            halved += channels;
             top += 2 * channels;
             bottom += 2 * channels;
         }
     }
     if (width % 2)
-        for (c = 0; c < channels; c++) out[c] = scale * (top[c] + bottom[c]);
+        for (c = 0; c < channels; c++) halved[c] = scale * (top[c] + bottom[c]);
 }
 
 /* Every level from the image, which may be the memory's. Two rows of a level are halved as soon as they are there, while
@@ -284,7 +290,7 @@ LOBE_API float lobe_fis_total(const fis_pyramid *pdf) {
    image      one channel; may be the same as memory
    returns    the pyramid in memory. Bad texels: see the head of this file. No mass at all: every texel is 1
 
-   Rounding: as fis_build, of noise   [bound fis_build_pdf rel 2e-7]
+   Rounding: as fis_build, of noise to 2.5e-7   [bound fis_build_pdf rel 2.5e-7]
    Model:    exact
    Source:   002, section 3
 */
@@ -631,7 +637,7 @@ LOBE_API float fis_scale_density_nearest(const fis_pyramid *pdf, const fis_sampl
  fis_split_size - memory that a summed-area table takes
 
    width, height   [1, 32768]
-   returns         number of doubles
+   returns         number of doubles; the largest size_t where memory cannot hold them
 
    Rounding: exact
    Model:    exact
@@ -639,7 +645,7 @@ LOBE_API float fis_scale_density_nearest(const fis_pyramid *pdf, const fis_sampl
 */
 LOBE_API size_t fis_split_size(int width, int height) {
     LOBE_ASSERT(width >= 1 && width <= LOBE_FIS_SIDE && height >= 1 && height <= LOBE_FIS_SIDE);
-    return ((size_t)width + 1) * ((size_t)height + 1);
+    return lobe_fis_numbers((size_t)width + 1, (size_t)height + 1, sizeof(double));
 }
 
 /*
@@ -771,13 +777,13 @@ LOBE_API float lobe_fis_overlap(int texel, double from, double to) {
    image      interleaved, any sign. Bad texels: see the head of this file
    channels   1 or more
    cell       what lies outside the image counts as 0; 0 where u0 > u1 or v0 > v1
-   out        as many floats as channels
+   totals     as many floats as channels
 
    Rounding: <= 1e-6 of the sum of magnitudes   [bound fis_cell_sum rel 1e-6]
    Model:    exact, the image constant in each texel
    Source:   002, section 4: the total texel value in a cluster
 */
-LOBE_API void fis_cell_sum(const float *image, int width, int height, int channels, fis_cell cell, float *out) {
+LOBE_API void fis_cell_sum(const float *image, int width, int height, int channels, fis_cell cell, float *totals) {
     double u0 = lobe_fis_inside(cell.u0, width), u1 = lobe_fis_inside(cell.u1, width);
     double v0 = lobe_fis_inside(cell.v0, height), v1 = lobe_fis_inside(cell.v1, height);
     int x0 = (int)u0, x1 = (int)ceil(u1), y0 = (int)v0, y1 = (int)ceil(v1), first, x, y, c;
@@ -793,7 +799,7 @@ LOBE_API void fis_cell_sum(const float *image, int width, int height, int channe
                 texels += channels;
             }
         }
-        for (c = 0; c < count; c++) out[first + c] = (float)sums[c];
+        for (c = 0; c < count; c++) totals[first + c] = (float)sums[c];
     }
 }
 

@@ -13,7 +13,7 @@
 
    macro        | default       | effect
    LOBE_VEC3    | a struct      | the engine's own vector type with fields x, y, z
-   LOBE_API     | static inline | linkage of every function
+   LOBE_API     | static inline | linkage of every function, with inline
    LOBE_ASSERT  | nothing       | called with each domain condition, e.g. assert
 
  Conventions: an SG is G(w) = exp(log_amplitude + sharpness (dot(w, axis) - 1)). Directions have unit length
@@ -344,7 +344,7 @@ LOBE_API float lobe_chord_squared(lobe_vec3 a, lobe_vec3 b) {
    g, dir     sharpness [0, 1e30]
    returns    exp(log_amplitude + sharpness (dot(dir, axis) - 1)); 0 below 2^-126, saturates at 2^122
 
-   Rounding: <= 8 (1 + |ln g|) 2^-24   [bound sg_eval conditioned 8 over 1e-8 1e10]
+   Rounding: <= 9.5 (1 + |ln g|) 2^-24   [bound sg_eval conditioned 9.5 over 1e-8 1e10]
    Model:    exact
    Source:   000, section 2, as -sharpness |dir - axis|^2 / 2, which does not cancel near the axis
 */
@@ -374,7 +374,7 @@ LOBE_API float sg_integral(float sharpness) {
    g          sharpness [0, 1e30]; its amplitude does not matter
    returns    g with log_amplitude = -ln(sg_integral(sharpness))
 
-   Rounding: integral within 2.2e-6 of 1 for sharpness up to 1e10   [bound sg_normalize rel 2.2e-6 over 1e-8 1e10]
+   Rounding: integral within 2.5e-6 of 1 for sharpness up to 1e10   [bound sg_normalize rel 2.5e-6 over 1e-8 1e10]
    Model:    exact
    Source:   000, section 2
 */
@@ -392,7 +392,7 @@ LOBE_API sg_lobe sg_normalize(sg_lobe g) {
 
    Rounding: the lobe's share within the direction's angle is u to 6 (1 + sqrt(sharpness)) 2^-24, the second term for
              directions being floats   [bound sg_sample share 6 over 1e-8 1e10]
-             Lengths are 1 to 3e-7 for an axis of length 1   [bound sg_sample length 3e-7]
+             Lengths are 1 to 5e-7 for an axis of length 1   [bound sg_sample length 5e-7]
    Model:    exact
    Source:   inversion of 1 - exp(-sharpness t) for t = 1 - cos, by t = -ln(1 - x) / sharpness, x = u (1 - exp(-2
              sharpness)), with both functions divided by their arguments, so that sharpness 0 is the whole sphere
@@ -452,8 +452,8 @@ LOBE_API float lobe_product_sharpness(sg_lobe a, sg_lobe b, lobe_vec3 mean, floa
    returns    a lobe with sg_eval(result, w) = sg_eval(a, w) sg_eval(b, w); for opposed axes of equal sharpness the
               result has sharpness 0 and the axis of a
 
-   Rounding: values <= 10 (1 + |ln g| + sharpness (2^-23 + angle to the axis)) 2^-24, the last term for the axis being
-             floats   [bound sg_product conditioned 10 over 1e-8 1e10]
+   Rounding: values <= 11 (1 + |ln g| + sharpness (2^-23 + angle to the axis)) 2^-24, the last term for the axis being
+             floats   [bound sg_product conditioned 11 over 1e-8 1e10]
    Model:    exact
    Source:   001, Eq. 1
 */
@@ -707,7 +707,7 @@ LOBE_API sg_lobe sg_phong_lobe(lobe_vec3 normal, lobe_vec3 wi, float exponent) {
    specular   reflected power of the specular component, Phi R_s
    alpha      GGX roughness of the specular component
 
-   Rounding: <= 5 ulp of each vector's length, of each scalar   [bound vsgl_moments_from_vpl ulp 5]
+   Rounding: <= 7 ulp of each vector's length, of each scalar   [bound vsgl_moments_from_vpl ulp 7]
    Model:    000, section 3.1: normalised SG lobes, Toksvig's mean length
    Source:   000, sections 3.1 to 3.3
 */
@@ -770,8 +770,8 @@ LOBE_API sg_lobe lobe_vsgl_emission(lobe_vec3 power, lobe_vec3 direction) {
    returns    mean position, variance >= 0, a lobe of peak 1 and the peak intensity for each component
 
    Rounding: the variance loses (|mean - origin|^2 + variance) 2^-21 absolute: keep the origin near; the sharpness
-             loses (sharpness + 4) 2^-21 relative and saturates at 2^25
-             [bound vsgl_from_moments variance 0x1p-21] [bound vsgl_from_moments sharpness 0x1p-21]
+             loses (sharpness + 4) 1.25 2^-21 relative and saturates at 2^25
+             [bound vsgl_from_moments variance 0x1p-21] [bound vsgl_from_moments sharpness 0x1.4p-21]
    Model:    000: one SG for each component, one isotropic Gaussian for the positions
    Source:   000, sections 3.1 and 3.2
 */
@@ -824,10 +824,10 @@ LOBE_API vsgl_cluster vsgl_cluster_from_vpl(lobe_vec3 position, lobe_vec3 normal
    a, b       in any order and grouping; one of power 0 changes nothing
    returns    their union
 
-   Rounding: variance within 1e-5 relative and mean position within 2e-6 of the cluster's size, wherever it lies;
+   Rounding: variance within 1e-5 relative and mean position within 2.5e-6 of the cluster's size, wherever it lies;
              sharpness within 2e-6 relative; of 4096 lights, merged in pairs, and these in pairs. Added one by one they
              have a sharpness within 2.5e-4, as in any sum of floats
-             [bound vsgl_cluster_merge variance 1e-5 over .01 100] [bound vsgl_cluster_merge mean 2e-6]
+             [bound vsgl_cluster_merge variance 1e-5 over .01 100] [bound vsgl_cluster_merge mean 2.5e-6]
              [bound vsgl_cluster_merge sharpness 2e-6] [bound vsgl_cluster_merge chained 2.5e-4]
    Model:    exact: the same sums as vsgl_moments_add
    Source:   mean directions w_i l_i / (l_i + 1) add like the exponents of SGs, so that sg_product adds them, and minus
@@ -870,7 +870,7 @@ LOBE_API float lobe_cluster_sharpness(sg_lobe direction) {
    c          a component without power gets intensity 0
    returns    as vsgl_from_moments; the sharpness saturates at 1e18
 
-   Rounding: <= 5 ulp of each figure that the cluster holds   [bound vsgl_from_cluster ulp 5]
+   Rounding: <= 6 ulp of each figure that the cluster holds   [bound vsgl_from_cluster ulp 6]
    Model:    as vsgl_from_moments
    Source:   000, sections 3.1 and 3.2
 */
@@ -987,8 +987,8 @@ LOBE_API float vsgl_diffuse_integral(vsgl v, int component, lobe_vec3 place, lob
    returns         peak 1 towards the center, sharpness 4 pi / solid angle, 4 d^2 / radius^2 far away, at most 1e18;
                    its integral is half the solid angle
 
-   Rounding: sharpness <= 4 (1 + 1 / cos) 2^-24 relative, but at most 5e-4, where sin = radius / distance
-             [bound vsl_lobe conditioned 4 over 1e-6 1] [bound vsl_lobe rel 5e-4]
+   Rounding: sharpness <= 5 (1 + 1 / cos) 2^-24 relative, but at most 6e-4, where sin = radius / distance
+             [bound vsl_lobe conditioned 5 over 1e-6 1] [bound vsl_lobe rel 6e-4]
    Model:    twice the lobe has the cone's solid angle and mean cosine, but for exp(-2 sharpness): within .019 relative
              and .038   [bound vsl_lobe solid_angle .019] [bound vsl_lobe cosine .038]
    Source:   001, section B, with 1 - cos as sin^2 / (1 + cos)

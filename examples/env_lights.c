@@ -12,6 +12,7 @@
 #include "../asg.h"
 #include "../fis.h"
 #include "common/brdf.h"
+#include "common/csv.h"
 #include "common/fail.h"
 #include "common/image.h"
 #include "common/options.h"
@@ -24,7 +25,7 @@
 
 const char *const program_name = "env_lights";
 
-enum { REPEATS = 5, BISECTIONS = 12, SKY_WIDTH = 512, SKY_HEIGHT = 256, REFERENCE_WIDTH = 512 };
+enum { REPEATS = 5, LIMIT_MS = 1000, BISECTIONS = 12, SKY_WIDTH = 512, SKY_HEIGHT = 256, REFERENCE_WIDTH = 512 };
 
 static const vec3 viewer = {0, 0, 1};
 
@@ -236,7 +237,8 @@ typedef struct {
     double *sums;
     fis_pyramid moments, pdf;
     fis_split_table table;
-    double flux, moments_ms, pyramid_ms, table_ms;
+    double flux;
+    quartiles moments_ms, pyramid_ms, table_ms, with_pyramids, with_table; /* moments and either */
 } env_source;
 
 static env_light sample_light(const env_source *source, rule how, int i, int count, const float shift[2]) {
@@ -558,7 +560,7 @@ static double rmse(const vec3 *values, const vec3 *wanted, int count) {
 
 static env_source prepare(const environment *map) {
     const size_t texels = (size_t)map->width * (size_t)map->height;
-    double times[3][REPEATS];
+    timing taken[5];
     env_source source;
     size_t i;
     int k;
@@ -567,21 +569,29 @@ static env_source prepare(const environment *map) {
     source.memory[0] = (float *)allocate("map", fis_pyramid_size(map->width, map->height, CHANNELS), sizeof(float));
     source.memory[1] = (float *)allocate("map", fis_pyramid_size(map->width, map->height, 1), sizeof(float));
     source.sums = (double *)allocate("map", fis_split_size(map->width, map->height), sizeof(double));
+    memset(taken, 0, sizeof taken);
     for (k = 0; k < REPEATS; k++) {
-        double started = progress_clock();
+        double ms[3], started = progress_clock();
         find_moments(map, source.texels, source.density);
-        times[0][k] = progress_clock() - started;
+        ms[0] = progress_clock() - started;
         started = progress_clock();
         source.moments = fis_build(source.memory[0], (const float *)source.texels, map->width, map->height, CHANNELS);
         source.pdf = fis_build_pdf(source.memory[1], source.density, map->width, map->height);
-        times[1][k] = progress_clock() - started;
+        ms[1] = progress_clock() - started;
         started = progress_clock();
         source.table = fis_split_build(source.sums, source.density, map->width, map->height);
-        times[2][k] = progress_clock() - started;
+        ms[2] = progress_clock() - started;
+        timing_add(&taken[0], ms[0]);
+        timing_add(&taken[1], ms[1]);
+        timing_add(&taken[2], ms[2]);
+        timing_add(&taken[3], ms[0] + ms[1]);
+        timing_add(&taken[4], ms[0] + ms[2]);
     }
-    source.moments_ms = progress_median(times[0], REPEATS);
-    source.pyramid_ms = progress_median(times[1], REPEATS);
-    source.table_ms = progress_median(times[2], REPEATS);
+    source.moments_ms = timing_quartiles(&taken[0]);
+    source.pyramid_ms = timing_quartiles(&taken[1]);
+    source.table_ms = timing_quartiles(&taken[2]);
+    source.with_pyramids = timing_quartiles(&taken[3]);
+    source.with_table = timing_quartiles(&taken[4]);
     source.flux = 0;
     for (i = 0; i < texels; i++) source.flux += (double)source.density[i];
     return source;
@@ -651,39 +661,90 @@ typedef struct {
     const char *map, *out;
 } settings;
 
-/* Shades with one rule and one number of lights, prints how fast and how well, and paints a column of the picture. The
-   errors are root mean squares over shifts of the samples, since that of a few lights is a matter of luck, and the flux
-   is that of the worst of them; cells have nothing to shift. */
-static void render(const settings *o, const env_source *source, const sphere_view *view, rule how, int count,
-                   vec3 *reference[SURFACES], vec3 *radiance, image *sheet) {
-    const int turns = how == RULE_SPLIT ? 1 : o->shifts;
+/* What one rule's lights do. Errors are root mean squares over shifts of the samples, since that of a few lights is a
+   matter of luck, and the flux is that of the worst of them; cells have nothing to shift. */
+typedef struct {
+    rule how;
+    int count, shifts;
+    timing sampling, shading;
+    double squares[SURFACES], flux;
+} row;
+
+/* Places the lights and shades with them, the glossy and the diffuse sphere. The first so many turns are the shifts. */
+static void take_turn(const settings *o, const env_source *source, const sphere_view *view, int turn, row *r,
+                      fis_cell *cells, env_light *lights, vec3 *const reference[SURFACES], vec3 *radiance,
+                      image *sheet) {
+    double started = progress_clock(), sampling, shading = 0;
+    int k;
+    make_lights(source, r->how, r->count, (unsigned)o->seed + (unsigned)turn, cells, lights);
+    sampling = progress_clock() - started;
+    for (k = SURFACE_GLOSSY; k < SURFACES; k++) {
+        started = progress_clock();
+        shade(view, (surface_kind)k, lights, r->count, radiance);
+        shading += progress_clock() - started;
+        if (turn < r->shifts) r->squares[k] += pow(rmse(radiance, reference[k], view->count), 2) / r->shifts;
+        if (turn == 0 && sheet) paint(sheet, view, o->size, 1 + (int)r->how, k, radiance);
+    }
+    if (turn < REPEATS) {
+        timing_add(&r->sampling, sampling);
+        timing_add(&r->shading, shading);
+    }
+    if (turn < r->shifts) {
+        const double ratio = total_flux(lights, r->count) / source->flux;
+        if (fabs(ratio - 1) >= fabs(r->flux - 1)) r->flux = ratio;
+    }
+    if (turn == 0 && sheet) {
+        shade(view, SURFACE_MIRROR, lights, r->count, radiance);
+        paint(sheet, view, o->size, 1 + (int)r->how, SURFACE_MIRROR, radiance);
+    }
+}
+
+static const char row_columns[] =
+    "lights,rule,build_ms,build_ms_low,build_ms_high,sampling_ms,sampling_ms_low,sampling_ms_high,shading_ms,"
+    "shading_ms_low,shading_ms_high,diffuse,alpha_3,alpha_1,power";
+
+static void show_row(const row *r, const env_source *source, csv *table) {
+    const quartiles build = r->how == RULE_SPLIT ? source->with_table : source->with_pyramids;
+    const quartiles sampling = timing_quartiles(&r->sampling), shading = timing_quartiles(&r->shading);
+    const double diffuse = sqrt(r->squares[SURFACE_DIFFUSE]), rough = sqrt(r->squares[SURFACE_ROUGH]),
+                 glossy = sqrt(r->squares[SURFACE_GLOSSY]);
+    printf("%6d %-9s %8.2f %8.3f %9.1f %9.5f %9.5f %9.5f   %.6f\n", r->count, rule_names[r->how], build.median,
+           sampling.median, shading.median, diffuse, rough, glossy, r->flux);
+    fflush(stdout);
+    csv_count(table, r->count);
+    csv_text(table, rule_names[r->how]);
+    csv_quartiles(table, build);
+    csv_quartiles(table, sampling);
+    csv_quartiles(table, shading);
+    csv_error(table, diffuse);
+    csv_error(table, rough);
+    csv_error(table, glossy);
+    csv_error(table, r->flux);
+    csv_row(table);
+}
+
+/* One number of lights by all rules, turn by turn; with a sheet, a column of it for each */
+static void compare_rules(const settings *o, const env_source *source, const sphere_view *view, int count,
+                          vec3 *const reference[SURFACES], vec3 *radiance, image *sheet, csv *table) {
+    const int turns = o->shifts > REPEATS ? o->shifts : REPEATS;
     env_light *lights = (env_light *)allocate("lights", (size_t)count, sizeof *lights);
     fis_cell *cells = (fis_cell *)allocate("lights", (size_t)count, sizeof *cells);
-    double times[REPEATS], squares[SURFACES] = {0}, worst = 1, build, shading = 0;
+    row rows[RULES];
     int turn, k;
-    for (turn = 0; turn < turns; turn++) {
-        double ratio;
-        for (k = 0; k < REPEATS; k++) {
-            const double started = progress_clock();
-            make_lights(source, how, count, (unsigned)o->seed + (unsigned)turn, cells, lights);
-            times[k] = progress_clock() - started;
-        }
-        for (k = SURFACE_MIRROR; k < SURFACES; k++) {
-            const double started = progress_clock();
-            if (k == SURFACE_MIRROR && (turn > 0 || !sheet)) continue;
-            shade(view, (surface_kind)k, lights, count, radiance);
-            if (k != SURFACE_MIRROR) shading += progress_clock() - started;
-            squares[k] += pow(rmse(radiance, reference[k], view->count), 2);
-            if (turn == 0 && sheet) paint(sheet, view, o->size, 1 + (int)how, k, radiance);
-        }
-        ratio = total_flux(lights, count) / source->flux;
-        if (fabs(ratio - 1) >= fabs(worst - 1)) worst = ratio;
+    memset(rows, 0, sizeof rows);
+    for (k = 0; k < RULES; k++) {
+        rows[k].how = (rule)k;
+        rows[k].count = count;
+        rows[k].shifts = k == RULE_SPLIT ? 1 : o->shifts;
+        rows[k].flux = 1;
     }
-    build = source->moments_ms + (how == RULE_SPLIT ? source->table_ms : source->pyramid_ms);
-    printf("%6d %-9s %8.2f %8.3f %9.1f %9.5f %9.5f %9.5f   %.6f\n", count, rule_names[how], build,
-           progress_median(times, REPEATS), shading / turns, sqrt(squares[SURFACE_DIFFUSE] / turns),
-           sqrt(squares[SURFACE_ROUGH] / turns), sqrt(squares[SURFACE_GLOSSY] / turns), worst);
-    fflush(stdout);
+    for (turn = 0; turn < turns; turn++) {
+        for (k = 0; k < RULES; k++) {
+            if (turn < rows[k].shifts || timing_goes_on(&rows[k].shading, 1, REPEATS, LIMIT_MS))
+                take_turn(o, source, view, turn, &rows[k], cells, lights, reference, radiance, sheet);
+        }
+    }
+    for (k = 0; k < RULES; k++) show_row(&rows[k], source, table);
     free(lights);
     free(cells);
 }
@@ -706,6 +767,7 @@ int main(int argc, char **argv) {
     sphere_view view;
     vec3 *reference[SURFACES], *radiance;
     image sheet;
+    csv table = csv_begin(row_columns);
     double edge;
     int i, k;
 
@@ -715,6 +777,7 @@ int main(int argc, char **argv) {
                  "A map is latitude by longitude: its top row up (+y), its centre ahead (-z), +x to the\n"
                  "right of that. One channel is grey. What is negative or no number counts as 0.");
     output_check(o.out, ".png");
+    output_check(o.out, ".csv");
     if (o.map)
         read_map(o.map, &map);
     else
@@ -730,16 +793,15 @@ int main(int argc, char **argv) {
     find_reference(&map, &view, o.size, reference);
     for (k = 0; k < SURFACES; k++) paint(&sheet, &view, o.size, 0, k, reference[k]);
     source = prepare(&map);
-    printf("%d pixels, times in ms: moments %.2f, pyramids %.2f, table %.2f\n\n", view.count, source.moments_ms,
-           source.pyramid_ms, source.table_ms);
+    printf("%d pixels, times in ms: moments %.2f, pyramids %.2f, table %.2f\n\n", view.count, source.moments_ms.median,
+           source.pyramid_ms.median, source.table_ms.median);
     printf("lights rule         build sampling   shading   diffuse  alpha .3  alpha .1   light/map\n");
-    for (i = 0; i < o.lights.count; i++) {
-        for (k = 0; k < RULES; k++)
-            render(&o, &source, &view, (rule)k, o.lights.value[i], reference, radiance, i ? NULL : &sheet);
-    }
+    for (i = 0; i < o.lights.count; i++)
+        compare_rules(&o, &source, &view, o.lights.value[i], reference, radiance, i ? NULL : &sheet, &table);
     output_picture(o.out, ".png", &sheet, 0.8f);
     printf("\nwrote %s.png: mirror, alpha .1, alpha .3 and diffuse; the map itself, then %d lights by each rule\n",
            o.out, o.lights.value[0]);
+    csv_end(&table, o.out, ".csv", "the numbers above");
     for (k = 0; k < SURFACES; k++) free(reference[k]);
     free(radiance);
     free_source(&source);

@@ -7,6 +7,7 @@
  integral times a coefficient, BRDF times cosine over the distribution's value, taken once at the light's center.
 */
 #include "../asg.h"
+#include "common/csv.h"
 #include "common/fail.h"
 #include "common/image.h"
 #include "common/options.h"
@@ -212,16 +213,34 @@ static void shade_truth(const plane_view *v, glossy look, int rings, float *radi
 
 /* ---- what is said and shown of them ---- */
 
-static double nanoseconds(const plane_view *v, glossy look, float *radiance,
-                          void (*shade)(const plane_view *v, glossy look, float *restrict radiance)) {
-    double times[REPEATS];
-    int repeat, turn, turns = 1 + 1000000 / v->count;
-    for (repeat = 0; repeat < REPEATS; repeat++) {
-        double started = progress_clock();
-        for (turn = 0; turn < turns; turn++) shade(v, look, radiance);
-        times[repeat] = (progress_clock() - started) * 1e6 / ((double)v->count * turns);
+/* Milliseconds of a panel, which is shaded so often that the clock can tell */
+static double shade_panel(int panel, const plane_view *v, glossy look, int rings, float *radiance) {
+    static void (*const forms[PANEL_TRUTH])(const plane_view *, glossy, float *restrict) = {
+        shade_sg_sg, shade_asg_asg, shade_asg_sg, shade_accurate};
+    const int turns = panel == PANEL_TRUTH ? 1 : 1 + 1000000 / v->count;
+    const double started = progress_clock();
+    int turn;
+    for (turn = 0; turn < turns; turn++) {
+        if (panel == PANEL_TRUTH)
+            shade_truth(v, look, rings, radiance);
+        else
+            forms[panel](v, look, radiance);
     }
-    return progress_median(times, REPEATS);
+    return (progress_clock() - started) / turns;
+}
+
+/* All of them, turn by turn; times are nanoseconds of a pixel. */
+static void shade_panels(const plane_view *v, glossy look, int rings, float *const radiance[PANELS],
+                         quartiles times[PANELS]) {
+    timing taken[PANELS] = {{0, {0}, 0}};
+    int repeat, k;
+    for (repeat = 0; repeat < REPEATS; repeat++) {
+        for (k = 0; k < PANELS; k++) {
+            if (timing_goes_on(&taken[k], 1, REPEATS, 1000))
+                timing_add(&taken[k], shade_panel(k, v, look, rings, radiance[k]));
+        }
+    }
+    for (k = 0; k < PANELS; k++) times[k] = quartiles_scaled(timing_quartiles(&taken[k]), 1e6 / v->count);
 }
 
 static double rmse(const float *values, const float *wanted, int count) {
@@ -253,9 +272,18 @@ static void paint(image *sheet, const plane_view *v, int width, int height, int 
     }
 }
 
+static void print_row(csv *table, const char *name, const char *panel, double error, double relative, quartiles ns) {
+    printf("%-11s %-18s %8.5f %9.4f %9.1f\n", name, panel, error, relative, ns.median);
+    fflush(stdout);
+    csv_text(table, name);
+    csv_text(table, panel);
+    csv_error(table, error);
+    csv_error(table, relative);
+    csv_quartiles(table, ns);
+    csv_row(table);
+}
+
 int main(int argc, char **argv) {
-    static void (*const shade[PANEL_TRUTH])(const plane_view *, glossy, float *restrict) = {
-        shade_sg_sg, shade_asg_asg, shade_asg_sg, shade_accurate};
     option_size size = {160, 200};
     int samples = 3072;
     const char *out = "build/glossy_plane";
@@ -267,6 +295,7 @@ int main(int argc, char **argv) {
     };
     plane_view view;
     image sheet;
+    csv table;
     float *radiance[PANELS];
     int m, k, i, rings;
 
@@ -274,6 +303,7 @@ int main(int argc, char **argv) {
                  "Draws a sphere light over a glossy plane, reflection and light as SGs and ASGs,\n"
                  "and prints the speed and the error of each against numerical integration.");
     output_check(out, ".png");
+    output_check(out, ".csv");
     for (rings = 1; 3 * (rings + 1) * (rings + 1) <= samples; rings++) continue;
     view = see_plane(size.width, size.height);
     sheet = image_create(PANELS * (size.width + 2) - 2, 2 * MATERIALS * (size.height + 2) - 2);
@@ -282,25 +312,23 @@ int main(int argc, char **argv) {
 
     printf("%dx%d pixels a panel, %d directions a pixel of the truth\n\n", size.width, size.height, 3 * rings * rings);
     printf("material    panel                 RMSE  relative  ns/pixel\n");
+    table = csv_begin("material,panel,rmse,relative,pixel_ns,pixel_ns_low,pixel_ns_high");
     for (m = 0; m < MATERIALS; m++) {
         const glossy look = materials[m];
         float brightest = 0, scale;
-        double root, started;
+        quartiles times[PANELS];
+        double root;
         for (i = 0; i < view.count; i++)
             view.plane[COEFFICIENT][i] = coefficient(look, toward_light(&view, i), view_at(&view, i));
-        started = progress_clock();
-        shade_truth(&view, look, rings, radiance[PANEL_TRUTH]);
-        started = (progress_clock() - started) * 1e6 / view.count;
+        shade_panels(&view, look, rings, radiance, times);
         root = rmse(radiance[PANEL_TRUTH], NULL, view.count);
         for (i = 0; i < view.count; i++) brightest = lobe_max(brightest, radiance[PANEL_TRUTH][i]);
         scale = 1.5f / lobe_max(brightest, LOBE_TINY);
         for (k = 0; k < PANELS; k++) {
-            double ns = k == PANEL_TRUTH ? started : nanoseconds(&view, look, radiance[k], shade[k]);
-            double error = rmse(radiance[k], radiance[PANEL_TRUTH], view.count);
+            const double error = rmse(radiance[k], radiance[PANEL_TRUTH], view.count);
             paint(&sheet, &view, size.width, size.height, k, 2 * m, radiance[k], NULL, scale);
             paint(&sheet, &view, size.width, size.height, k, 2 * m + 1, radiance[k], radiance[PANEL_TRUTH], scale);
-            printf("%-11s %-18s %8.5f %9.4f %9.1f\n", look.name, panel_names[k], error, error / root, ns);
-            fflush(stdout);
+            print_row(&table, look.name, panel_names[k], error, error / root, times[k]);
         }
         say_forms(&view, look, 0.01f);
     }
@@ -308,6 +336,7 @@ int main(int argc, char **argv) {
     printf(
         "\nwrote %s.png: a column for each panel; for each material its panels, and their differences from the truth\n",
         out);
+    csv_end(&table, out, ".csv", "the numbers above");
     for (k = 0; k < PANELS; k++) free(radiance[k]);
     for (k = 0; k < PLANES; k++) free(view.plane[k]);
     free(view.pixel);

@@ -25,6 +25,7 @@ enum {
     SAMPLES = 8,
     MOST_RUNS = 15,
     LEAST_RUNS = 3,
+    LIMIT_MS = 2000,
     STAGES_OF_SHADERS = 2,
     LANGUAGES = 2,
     DIFFERENCE_SCALE = 100000
@@ -68,26 +69,11 @@ static void work_begin(work *w, int width, int height) {
 /* What a device does; returns the milliseconds that it took. */
 typedef double (*device_run)(void *prepared, gpu_stage stage, vec3 *pixels);
 
-/* Times of one thing, until enough of them are known */
-typedef struct {
-    int count;
-    double ms[MOST_RUNS], sum;
-} timing;
-
-static int timing_goes_on(const timing *t) {
-    return t->count < LEAST_RUNS || (t->count < MOST_RUNS && t->sum < 2000);
-}
-
-static void timing_add(timing *t, double ms) {
-    t->ms[t->count++] = ms;
-    t->sum += ms;
-}
-
 /* The picture that is wanted, and how long it takes */
 static void measure_cpu(work *w, void (*run)(const void *task, image *picture), const void *task) {
     timing t = {0};
     run(task, &w->wanted); /* touches the memory */
-    while (timing_goes_on(&t)) {
+    while (timing_goes_on(&t, LEAST_RUNS, MOST_RUNS, LIMIT_MS)) {
         const double started = progress_clock();
         run(task, &w->wanted);
         timing_add(&t, progress_clock() - started);
@@ -116,7 +102,7 @@ static void measure(work *w, const gpu *device, const char *language, device_run
         line = progress_begin(label, LEAST_RUNS + 1);
         run(prepared, (gpu_stage)stage, w->got.pixels); /* compiles as well */
         progress_step(&line);
-        while (timing_goes_on(&t)) {
+        while (timing_goes_on(&t, LEAST_RUNS, MOST_RUNS, LIMIT_MS)) {
             timing_add(&t, run(prepared, (gpu_stage)stage, w->got.pixels));
             if (t.count <= LEAST_RUNS) progress_step(&line);
         }
@@ -237,7 +223,8 @@ static void compare_filter(work *w, gpu *device, const settings *o) {
     const scene world = scene_gallery();
     frame f = frame_of(&world, &tiles, o->size.width, o->size.height);
     image noisy = shade_frame(&f, SAMPLES, (unsigned)o->seed, 0, "noisy light");
-    filter_planes *planes = filter_planes_create(f.width, f.height, filter_most_parts(f.guides, f.width * f.height));
+    filter_planes *planes =
+        filter_planes_create(f.width, f.height, FILTER_RADIUS, filter_most_parts(f.guides, f.width * f.height));
     filter_task task;
     int i;
     filter_fill_colours(planes, &noisy);

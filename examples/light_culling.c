@@ -10,6 +10,7 @@
 #include "../ggx_bound.h"
 #include "common/brdf.h"
 #include "common/buffers.h"
+#include "common/csv.h"
 #include "common/fail.h"
 #include "common/hash.h"
 #include "common/image.h"
@@ -28,7 +29,8 @@ enum {
     TILE_PIXELS = 16 * 16, /* of the largest tile */
     REFERENCE_STEP = 7,    /* the sum over all lights is taken at every 7th pixel of every 7th row: of all subsets */
     FILTER_RADIUS = 8,
-    REPEATS = 3
+    REPEATS = 5,   /* of timings, at most, */
+    LIMIT_MS = 500 /* in so much time */
 };
 
 const char *const program_name = "light_culling";
@@ -43,6 +45,7 @@ static const char *const volume_names[VOLUMES] = {"sphere at the VPL", "enclosin
 enum { ALPHAS = 4, SCENES = 2 };
 static const float alphas[ALPHAS] = {0.4f, 0.2f, 0.1f, 0.05f};
 static const char *const scene_names[SCENES] = {"ring", "colonnade"};
+static const char *const scene_choices[] = {"all", "ring", "colonnade", NULL};
 
 /* ---- virtual point lights ---- */
 
@@ -77,18 +80,19 @@ static void add_light(light_list *list, int *count, const texel *t, vec3 reflect
     ++*count;
 }
 
-/* Every 8th texel of every 8th row makes a subset. */
+/* Every 8th texel of every 8th row makes a subset. The edges of the RSM are multiples of 8, RSM_SIZE at most. */
 static void make_lights(const buffer *rsm, unsigned seed, light_list lists[KINDS]) {
+    const int side = rsm->width / INTERLEAVE;
     int kind, subset, i;
     for (kind = 0; kind < KINDS; kind++) {
         light_list *list = &lists[kind];
         int count = 0;
-        list->lights = (vpl *)allocate("scene", RSM_SIZE * RSM_SIZE, sizeof *list->lights);
+        list->lights = (vpl *)allocate("scene", (size_t)(rsm->width * rsm->height), sizeof *list->lights);
         for (subset = 0; subset < SUBSETS; subset++) {
             list->first[subset] = count;
-            for (i = 0; i < SUBSET_LIGHTS; i++) {
-                int side = RSM_SIZE / INTERLEAVE, row = i / side * INTERLEAVE + subset / INTERLEAVE;
-                int column = i % side * INTERLEAVE + subset % INTERLEAVE, index = row * RSM_SIZE + column;
+            for (i = 0; i < side * side; i++) {
+                int row = i / side * INTERLEAVE + subset / INTERLEAVE;
+                int column = i % side * INTERLEAVE + subset % INTERLEAVE, index = row * rsm->width + column;
                 const texel *t = &rsm->texels[index];
                 if (t->valid)
                     add_light(list, &count, t, kind == DIFFUSE ? t->hit.look.diffuse : t->hit.look.specular,
@@ -560,9 +564,11 @@ static double mean_of(const tile *tiles, int tile_count, const image *got, const
     return wanted_sum > 0 ? sum / wanted_sum : 0;
 }
 
+enum { TIME_BOUNDS, TIME_CULLING, TIME_SHADING, TIMES };
+
 typedef struct {
     double shaded, inside, accepted; /* glossy lights per pixel */
-    double bound_ms, cull_ms, shade_ms;
+    double ms[TIMES];
 } outcome;
 
 /* Renders once with one volume: irradiance into the tiles' sums. */
@@ -577,28 +583,22 @@ typedef struct {
     kept_lights kept[KINDS];
 } renderer;
 
-static double least(double a, double b) {
-    return a < b ? a : b;
-}
-
 static outcome render(renderer *r, volume which, float delta, int count_too) {
-    outcome o = {0, 0, 0, 1e30, 1e30, 1e30};
-    int repeat, kind, i, k;
-    for (repeat = 0; repeat < REPEATS; repeat++) {
-        double started = progress_clock();
-        for (kind = 0; kind < KINDS; kind++)
-            bound_lights(&r->lists[kind], (light_kind)kind, which, delta, &r->frame, &r->volumes[kind]);
-        o.bound_ms = least(o.bound_ms, progress_clock() - started);
-        started = progress_clock();
-        for (kind = 0; kind < KINDS; kind++)
-            cull(r->tiles, r->tile_count, &r->lists[kind], &r->volumes[kind], which >= SPHEROID_CLOSE, &r->kept[kind]);
-        o.cull_ms = least(o.cull_ms, progress_clock() - started);
-        clear_sums(r->tiles, r->tile_count);
-        started = progress_clock();
-        for (kind = 0; kind < KINDS; kind++)
-            shade(r->tiles, r->tile_count, &r->lists[kind], (light_kind)kind, &r->kept[kind], delta);
-        o.shade_ms = least(o.shade_ms, progress_clock() - started);
-    }
+    outcome o = {0, 0, 0, {0, 0, 0}};
+    int kind, i, k;
+    double started = progress_clock();
+    for (kind = 0; kind < KINDS; kind++)
+        bound_lights(&r->lists[kind], (light_kind)kind, which, delta, &r->frame, &r->volumes[kind]);
+    o.ms[TIME_BOUNDS] = progress_clock() - started;
+    started = progress_clock();
+    for (kind = 0; kind < KINDS; kind++)
+        cull(r->tiles, r->tile_count, &r->lists[kind], &r->volumes[kind], which >= SPHEROID_CLOSE, &r->kept[kind]);
+    o.ms[TIME_CULLING] = progress_clock() - started;
+    clear_sums(r->tiles, r->tile_count);
+    started = progress_clock();
+    for (kind = 0; kind < KINDS; kind++)
+        shade(r->tiles, r->tile_count, &r->lists[kind], (light_kind)kind, &r->kept[kind], delta);
+    o.ms[TIME_SHADING] = progress_clock() - started;
     if (count_too) {
         double pixels = 0;
         count_lights(r->tiles, r->tile_count, &r->lists[GLOSSY], &r->volumes[GLOSSY], &r->kept[GLOSSY], &r->frame,
@@ -674,15 +674,28 @@ static void name_picture(char rest[64], int which, int picture) {
     snprintf(rest, 64, "-%s%s.png", scene_names[which], picture_names[picture]);
 }
 
-static void check_paths(const char *prefix) {
+typedef struct {
+    option_size size;
+    int scene, seed, tile; /* edge of the squares of pixels for which lights are culled */
+    float delta;           /* radiance below which lights are left out at random */
+    option_reals deltas;
+    const char *out;
+} settings;
+
+static int is_shown(const settings *o, int which) {
+    return o->scene == 0 || o->scene == 1 + which;
+}
+
+static void check_paths(const settings *o) {
     char rest[64];
     int which, picture;
     for (which = 0; which < SCENES; which++) {
-        for (picture = 0; picture < 2; picture++) {
+        for (picture = 0; picture < 2 && is_shown(o, which); picture++) {
             name_picture(rest, which, picture);
-            output_check(prefix, rest);
+            output_check(o->out, rest);
         }
     }
+    output_check(o->out, ".csv");
 }
 
 /* ---- one scene ---- */
@@ -691,45 +704,104 @@ typedef struct {
     image noisy, smooth, wanted, heat, composed, results, heats;
 } pictures;
 
-static void print_row(float alpha, volume which, const outcome *o, double noisy, double smooth, double mean) {
-    printf("%5g  %-18s%9.2f%9.2f%9.2f%9.2f%9.2f%9.2f%9.2f  %.5f  %.5f %.4f\n", (double)alpha, volume_names[which],
-           o->shaded, o->shaded - o->accepted, o->inside - o->accepted, o->bound_ms, o->cull_ms, o->shade_ms,
-           o->bound_ms + o->cull_ms + o->shade_ms, noisy, smooth, mean);
-    fflush(stdout);
+/* What one volume lets through, how long it takes, and how well the light does. The error is the same with each. */
+typedef struct {
+    volume which;
+    float alpha, delta;
+    outcome found;
+    timing taken[TIMES], whole;
+    double noisy, smooth, mean;
+} row;
+
+static void judge(const renderer *r, const tile *reference, int reference_count, pictures *p, row *result) {
+    gather(r->tiles, r->tile_count, 1, &p->noisy);
+    if (result->which == AT_LIGHT) denoise(r->view, &p->noisy, &p->smooth);
+    result->noisy = error_of(r->view, reference, reference_count, &p->noisy, &p->wanted);
+    result->smooth = error_of(r->view, reference, reference_count, &p->smooth, &p->wanted);
+    result->mean = mean_of(reference, reference_count, &p->noisy, &p->wanted);
 }
 
-typedef struct {
-    option_size size;
-    int seed, tile; /* edge of the squares of pixels for which lights are culled */
-    float delta;    /* radiance below which lights are left out at random */
-    const char *out;
-} settings;
-
-/* The error against time as delta varies, with the paper's spheroid, the ellipsoid, and the sphere at the light */
-static void vary_delta(renderer *r, const settings *o, const tile *reference, int reference_count, pictures *p) {
-    static const float factors[] = {256, 64, 16, 4, 1, 0.25f};
-    static const volume shapes[] = {AT_LIGHT, SPHEROID, ELLIPSOID};
-    int i, k;
-    printf("\nat alpha %g as delta varies: milliseconds for bounds, culling and shading\n", (double)alphas[ALPHAS - 1]);
-    printf("%9s%20s%11s%11s%11s  %-8s %-8s %s\n", "delta", "sphere at the VPL", "spheroid", "ellipsoid", "VPLs/px",
-           "RMSE", "denoised", "mean");
-    for (i = 0; i < (int)(sizeof factors / sizeof *factors); i++) {
-        outcome found[3];
-        for (k = 0; k < 3; k++) found[k] = render(r, shapes[k], o->delta * factors[i], shapes[k] == ELLIPSOID);
-        gather(r->tiles, r->tile_count, 1, &p->noisy);
-        denoise(r->view, &p->noisy, &p->smooth);
-        printf("%9g%20.2f%11.2f%11.2f%11.2f  %.5f  %.5f %.4f\n", (double)(o->delta * factors[i]),
-               found[0].bound_ms + found[0].cull_ms + found[0].shade_ms,
-               found[1].bound_ms + found[1].cull_ms + found[1].shade_ms,
-               found[2].bound_ms + found[2].cull_ms + found[2].shade_ms, found[2].shaded,
-               error_of(r->view, reference, reference_count, &p->noisy, &p->wanted),
-               error_of(r->view, reference, reference_count, &p->smooth, &p->wanted),
-               mean_of(reference, reference_count, &p->noisy, &p->wanted));
-        fflush(stdout);
+/* All volumes, turn by turn. A heat map of each of the first four goes into a row of that sheet, if there is one. */
+static void compare_volumes(renderer *r, float alpha, float delta, const tile *reference, int reference_count,
+                            pictures *p, int heat_row, row rows[VOLUMES]) {
+    int turn, k, i;
+    memset(rows, 0, VOLUMES * sizeof *rows);
+    for (turn = 0; turn < REPEATS; turn++) {
+        for (k = 0; k < VOLUMES; k++) {
+            outcome found;
+            if (!timing_goes_on(&rows[k].whole, 1, REPEATS, LIMIT_MS)) continue;
+            found = render(r, (volume)k, delta, turn == 0);
+            for (i = 0; i < TIMES; i++) timing_add(&rows[k].taken[i], found.ms[i]);
+            timing_add(&rows[k].whole, found.ms[TIME_BOUNDS] + found.ms[TIME_CULLING] + found.ms[TIME_SHADING]);
+            if (turn > 0) continue;
+            rows[k].which = (volume)k;
+            rows[k].alpha = alpha;
+            rows[k].delta = delta;
+            rows[k].found = found;
+            judge(r, reference, reference_count, p, &rows[k]);
+            if (heat_row < 0 || k >= SPHEROID_CLOSE) continue;
+            draw_heat(r->tiles, r->tile_count, &p->heat);
+            paste_half(&p->heats, &p->heat, k, heat_row);
+        }
     }
 }
 
-static void show_scene(int which, const settings *o) {
+static void print_row(const row *r) {
+    const outcome *o = &r->found;
+    int i;
+    printf("%5g  %-18s%9.2f%9.2f%9.2f", (double)r->alpha, volume_names[r->which], o->shaded, o->shaded - o->accepted,
+           o->inside - o->accepted);
+    for (i = 0; i < TIMES; i++) printf("%9.2f", timing_quartiles(&r->taken[i]).median);
+    printf("%9.2f  %.5f  %.5f %.4f\n", timing_quartiles(&r->whole).median, r->noisy, r->smooth, r->mean);
+    fflush(stdout);
+}
+
+static const char row_columns[] =
+    "scene,alpha,delta,volume,lights,false_positives,in_volume,bounds_ms,bounds_ms_low,bounds_ms_high,culling_ms,"
+    "culling_ms_low,culling_ms_high,shading_ms,shading_ms_low,shading_ms_high,total_ms,total_ms_low,total_ms_high,"
+    "rmse,denoised,mean";
+
+static void add_row(csv *table, const char *name, const row *r) {
+    int i;
+    csv_text(table, name);
+    csv_number(table, (double)r->alpha);
+    csv_number(table, (double)r->delta);
+    csv_text(table, volume_names[r->which]);
+    csv_error(table, r->found.shaded);
+    csv_error(table, r->found.shaded - r->found.accepted);
+    csv_error(table, r->found.inside - r->found.accepted);
+    for (i = 0; i < TIMES; i++) csv_quartiles(table, timing_quartiles(&r->taken[i]));
+    csv_quartiles(table, timing_quartiles(&r->whole));
+    csv_error(table, r->noisy);
+    csv_error(table, r->smooth);
+    csv_error(table, r->mean);
+    csv_row(table);
+}
+
+/* The error against time as delta varies. What was measured already is not measured again. */
+static void vary_delta(renderer *r, const char *name, const settings *o, const row known[VOLUMES],
+                       const tile *reference, int reference_count, pictures *p, csv *table) {
+    int i, k;
+    printf("\nat alpha %g as delta varies: milliseconds for bounds, culling and shading, the latter two with further\n"
+           "tests of tiles last\n",
+           (double)known->alpha);
+    printf("%9s%10s%11s%10s%11s%10s%11s%9s  %-8s %-8s %s\n", "delta", "sphere", "enclosing", "spheroid", "ellipsoid",
+           "spheroid", "ellipsoid", "VPLs/px", "RMSE", "denoised", "mean");
+    for (i = 0; i < o->deltas.count; i++) {
+        const float delta = o->deltas.value[i];
+        const int is_new = delta < known->delta || delta > known->delta;
+        row measured[VOLUMES];
+        const row *rows = is_new ? measured : known;
+        if (is_new) compare_volumes(r, known->alpha, delta, reference, reference_count, p, -1, measured);
+        printf("%9g", (double)delta);
+        for (k = 0; k < VOLUMES; k++) printf("%*.2f", k % 2 ? 11 : 10, timing_quartiles(&rows[k].whole).median);
+        printf("%9.2f  %.5f  %.5f %.4f\n", rows[ELLIPSOID].found.shaded, rows->noisy, rows->smooth, rows->mean);
+        fflush(stdout);
+        for (k = 0; k < VOLUMES && is_new; k++) add_row(table, name, &rows[k]);
+    }
+}
+
+static void show_scene(int which, const settings *o, csv *table) {
     pictures p;
     char rest[64];
     int i, k, picture;
@@ -749,7 +821,7 @@ static void show_scene(int which, const settings *o) {
         renderer r;
         tile *reference;
         int reference_count, kind;
-        double smooth_error = 0;
+        row rows[VOLUMES];
         r.world = &world;
         r.view = &view;
         r.frame = view_of(&world);
@@ -766,23 +838,14 @@ static void show_scene(int which, const settings *o) {
         reference = make_reference_tiles(&view, &reference_count);
         shade_all(reference, reference_count, r.lists, "reference");
         gather(reference, reference_count, 1 / (float)SUBSETS, &p.wanted);
+        compare_volumes(&r, alphas[i], o->delta, reference, reference_count, &p, i, rows);
         for (k = 0; k < VOLUMES; k++) {
-            outcome found = render(&r, (volume)k, o->delta, 1);
-            gather(r.tiles, r.tile_count, 1, &p.noisy);
-            if (k == 0) { /* the same picture with each volume */
-                denoise(&view, &p.noisy, &p.smooth);
-                smooth_error = error_of(&view, reference, reference_count, &p.smooth, &p.wanted);
-            }
-            print_row(alphas[i], (volume)k, &found, error_of(&view, reference, reference_count, &p.noisy, &p.wanted),
-                      smooth_error, mean_of(reference, reference_count, &p.noisy, &p.wanted));
-            if (k < SPHEROID_CLOSE) {
-                draw_heat(r.tiles, r.tile_count, &p.heat);
-                paste_half(&p.heats, &p.heat, k, i);
-            }
+            print_row(&rows[k]);
+            add_row(table, scene_names[which], &rows[k]);
         }
         compose(&world, &view, &p.smooth, &p.composed);
         image_paste(&p.results, &p.composed, i % 2 * o->size.width, i / 2 * o->size.height);
-        if (i == ALPHAS - 1) vary_delta(&r, o, reference, reference_count, &p);
+        if (i == ALPHAS - 1) vary_delta(&r, scene_names[which], o, rows, reference, reference_count, &p, table);
         for (kind = 0; kind < KINDS; kind++) {
             free_volumes(&r.volumes[kind]);
             free(r.kept[kind].counts);
@@ -811,29 +874,36 @@ static void show_scene(int which, const settings *o) {
 }
 
 int main(int argc, char **argv) {
-    settings o = {{640, 480}, 0, 16, 0.1f, "build/light_culling"};
+    settings o = {{640, 480}, 0, 0, 16, 0.1f, {6, {25.6f, 6.4f, 1.6f, 0.4f, 0.1f, 0.025f}}, "build/light_culling"};
     const option options[] = {
+        {"--scene S", OPTION_CHOICE, &o.scene, 0, 0, "what is lit", scene_choices},
         OPTION_OF_SIZE(&o.size),
         {"--delta X", OPTION_REAL, &o.delta, 1e-9, 1e9, "radiance below which lights are left out at random", 0},
+        {"--deltas X,...", OPTION_REALS, &o.deltas, 1e-9, 1e9, "the same, of the table of errors against time", 0},
         {"--tile N", OPTION_WHOLE, &o.tile, 2, 16, "edge of a tile, in pixels of an interleaved image", 0},
         OPTION_OF_SEED(&o.seed),
         OPTION_OF_OUT(&o.out),
         {0, OPTION_WHOLE, 0, 0, 0, 0, 0},
     };
+    csv table = csv_begin(row_columns);
     int which;
     options_read(
         options, argc, argv,
         "Renders glossy caustics with 65,536 virtual point lights that are culled at random without bias,\n"
         "and prints how many lights each bounding volume lets through, in vain or not, and how long it takes.");
-    check_paths(o.out);
-    printf(
-        "%dx%d pixels, tiles of %dx%d, delta %g; times are the least of %d runs. The reference is the sum over all\n",
-        o.size.width, o.size.height, o.tile, o.tile, (double)o.delta, REPEATS);
+    check_paths(&o);
+    printf("%dx%d pixels, tiles of %dx%d, delta %g; times are medians of up to %d runs. The reference is the sum over "
+           "all\n",
+           o.size.width, o.size.height, o.tile, o.tile, (double)o.delta, REPEATS);
     printf(
         "VPLs at every %dth pixel of every %dth row; mean: of the light there, over the reference's. False: glossy\n",
         REFERENCE_STEP, REFERENCE_STEP);
     printf("VPLs that are shaded where they are not accepted; in its volume: those that were if tiles were single\n"
            "pixels. Closer: with further tests of tiles.\n");
-    for (which = 0; which < SCENES; which++) show_scene(which, &o);
+    for (which = 0; which < SCENES; which++) {
+        if (is_shown(&o, which)) show_scene(which, &o, &table);
+    }
+    printf("\n");
+    csv_end(&table, o.out, ".csv", "the numbers of all tables");
     return 0;
 }

@@ -7,8 +7,8 @@
  to 13); upsampling of 4 x 4 pixels in space and time with recomputation of what has no like neighbours (Figs. 14 to
  16). With --color and its like it filters buffers of a renderer of yours.
 */
+#include "common/csv.h"
 #include "common/fail.h"
-#include "common/file.h"
 #include "common/glossy_frame.h"
 #include "common/options.h"
 #include "common/output.h"
@@ -38,6 +38,15 @@ static const method_data methods[FILTER_METHODS] = {
     {"lobes, Eq. 13", "beta", 1, {-6, 0}, {10, 0}},
 };
 
+typedef struct {
+    option_size size;
+    option_list radii; /* of the filters */
+    int scene, samples, reference, seed;
+    const char *out;
+    const char *color, *depth, *normal, *alpha; /* a user's buffers */
+    float field_of_view, beta, depth_variance;
+} settings;
+
 /* ---- measuring ---- */
 
 /* What an image should be, twice: their noise is independent, so that it does not count as an error. And the mean. */
@@ -61,23 +70,33 @@ static void truth_free(truth *t) {
     image_free(&t->mean);
 }
 
-/* One noisy image, what it should be, and room for filtering it */
+/* One noisy image, what it should be, and room for filtering it with kernels of a radius */
 typedef struct {
     frame f;
     image noisy, result;
     truth wanted;
     filter_planes *room;
+    int radius;
 } study;
 
-static void study_begin(study *s, const subject *what, int width, int height, int samples, int reference,
-                        unsigned seed) {
-    const scene world = what->build();
-    s->f = frame_of(&world, what, width, height);
-    s->noisy = shade_frame(&s->f, samples, seed, 0, what->name);
-    s->wanted = truth_of(&s->f, reference, seed, what->name);
-    s->result = image_create(width, height);
-    s->room = filter_planes_create(width, height, filter_most_parts(s->f.guides, width * height));
+/* Other kernels */
+static void study_resize(study *s, int radius) {
+    const int width = s->f.width, height = s->f.height;
+    if (s->room) filter_planes_free(s->room);
+    s->radius = radius;
+    s->room = filter_planes_create(width, height, radius, filter_most_parts(s->f.guides, width * height));
     filter_fill_colours(s->room, &s->noisy);
+}
+
+static void study_begin(study *s, const subject *what, const settings *o) {
+    const scene world = what->build();
+    const unsigned seed = (unsigned)o->seed;
+    s->f = frame_of(&world, what, o->size.width, o->size.height);
+    s->noisy = shade_frame(&s->f, o->samples, seed, 0, what->name);
+    s->wanted = truth_of(&s->f, o->reference, seed, what->name);
+    s->result = image_create(o->size.width, o->size.height);
+    s->room = NULL;
+    study_resize(s, o->radii.value[0]);
 }
 
 static void study_end(study *s) {
@@ -165,52 +184,33 @@ static double search(study *s, filter_method m, float step, float parameter[2], 
 
 /* ---- time ---- */
 
-enum { ROUNDS = 5 };
+enum { ROUNDS = 5, LIMIT_MS = 1000 };
 
 /* Milliseconds of each method on one core, turn by turn */
-static void time_methods(study *s, float parameters[FILTER_METHODS][2], double ms[FILTER_METHODS]) {
-    double times[FILTER_METHODS][ROUNDS];
+static void time_methods(study *s, float parameters[FILTER_METHODS][2], quartiles ms[FILTER_METHODS]) {
+    timing taken[FILTER_METHODS];
     int round, m, row;
+    memset(taken, 0, sizeof taken);
     for (round = 0; round < ROUNDS; round++) {
         for (m = 0; m < FILTER_METHODS; m++) {
             const double started = progress_clock();
-            for (row = -FILTER_RADIUS; row < s->f.height + FILTER_RADIUS; row++)
+            if (!timing_goes_on(&taken[m], 1, ROUNDS, LIMIT_MS)) continue;
+            for (row = -s->radius; row < s->f.height + s->radius; row++)
                 filter_fill_row(s->room, s->f.guides, (filter_method)m, parameters[m],
                                 bilateral_scale(filter_depth_variance), row);
             for (row = 0; row < s->f.height; row++)
                 filter_row(s->room, (filter_method)m, parameters[m], row, &s->result);
-            times[m][round] = progress_clock() - started;
+            timing_add(&taken[m], progress_clock() - started);
         }
     }
-    for (m = 0; m < FILTER_METHODS; m++) ms[m] = progress_median(times[m], ROUNDS);
+    for (m = 0; m < FILTER_METHODS; m++) ms[m] = timing_quartiles(&taken[m]);
 }
 
 /* ---- files ---- */
 
-typedef struct {
-    option_size size;
-    int samples, reference, seed;
-    const char *out;
-    const char *color, *depth, *normal, *alpha; /* a user's buffers */
-    float field_of_view, beta, depth_variance;
-} settings;
-
 static void write_picture(const char *prefix, const char *rest, const image *picture, const char *what) {
     output_picture(prefix, rest, picture, 1);
     printf("wrote %s%s: %s\n", prefix, rest, what);
-}
-
-static void begin_csv(file *f, char path[OUTPUT_NAME], const char *prefix, const char *rest) {
-    const char *wrong;
-    output_name(path, prefix, rest);
-    wrong = file_begin(f, path);
-    if (wrong) give_up(path, wrong);
-}
-
-static void end_csv(file *f, const char *what) {
-    const char *path = f->path, *wrong = file_end(f);
-    if (wrong) give_up(path, wrong);
-    printf("wrote %s: %s\n", path, what);
 }
 
 /* Twice the difference where something is glossy */
@@ -237,18 +237,20 @@ static void compare_similarities(const settings *o) {
     static const float sharpnesses[] = {1, 3, 10, 30, 100, 1000};
     enum { COLUMNS = sizeof sharpnesses / sizeof *sharpnesses, STEPS = 180 };
     float worst[COLUMNS], where[COLUMNS];
-    char path[OUTPUT_NAME];
-    file f;
+    csv table = csv_begin(NULL);
     int i, k;
-    begin_csv(&f, path, o->out, "-similarity.csv");
-    fprintf(f.stream, "degrees");
+    csv_text(&table, "degrees");
     for (k = 0; k < COLUMNS; k++) {
-        fprintf(f.stream, ",Eq. 11 of sharpness %g,Eq. 12", (double)sharpnesses[k]);
+        char heading[64];
+        snprintf(heading, sizeof heading, "Eq. 11 of sharpness %g", (double)sharpnesses[k]);
+        csv_text(&table, heading);
+        csv_text(&table, "Eq. 12");
         worst[k] = where[k] = 0;
     }
     for (i = 0; i <= STEPS; i++) {
         const float angle = (float)i * LOBE_PI / STEPS;
-        fprintf(f.stream, "\n%d", i);
+        csv_row(&table);
+        csv_count(&table, i);
         for (k = 0; k < COLUMNS; k++) {
             sg_lobe a = blank_lobe(), b = blank_lobe();
             float exact, approximate;
@@ -256,13 +258,14 @@ static void compare_similarities(const settings *o) {
             b.axis = lobe_vector(sinf(angle), 0, cosf(angle));
             exact = bilateral_sg_mixture_weight(&a, 1, &b, 1, 20);
             approximate = bilateral_sg_weight(a, b, 20);
-            fprintf(f.stream, ",%g,%g", (double)exact, (double)approximate);
+            csv_error(&table, (double)exact);
+            csv_error(&table, (double)approximate);
             if (fabsf(exact - approximate) <= worst[k]) continue;
             worst[k] = fabsf(exact - approximate);
             where[k] = angle * 180 / LOBE_PI;
         }
     }
-    fprintf(f.stream, "\n");
+    csv_row(&table);
     printf("\nEq. 12 against Eq. 11, lobes of one sharpness, beta 20 (Fig. 4): the largest difference\n\nsharpness ");
     for (k = 0; k < COLUMNS; k++) printf("%10g", (double)sharpnesses[k]);
     printf("\ndifference");
@@ -270,7 +273,7 @@ static void compare_similarities(const settings *o) {
     printf("\nat degrees");
     for (k = 0; k < COLUMNS; k++) printf("%10.0f", (double)where[k]);
     printf("\n\n");
-    end_csv(&f, "both weights over the angle (Fig. 4)");
+    csv_end(&table, o->out, "-similarity.csv", "both weights over the angle (Fig. 4)");
 }
 
 /* ---- Figs. 10 to 13: the error over the parameter, one material a picture, and three in one ---- */
@@ -326,25 +329,25 @@ static int best_of_group(const curve *c, int group) {
 
 static void write_curve(const settings *o, const char *rest, const char *parameter, filter_method m, const curve *c,
                         const char *what) {
-    char path[OUTPUT_NAME];
-    file f;
+    csv table = csv_begin(NULL);
     int i, k, group;
-    begin_csv(&f, path, o->out, rest);
-    fprintf(f.stream, "%s", parameter);
+    csv_text(&table, parameter);
     for (group = 0; group < GROUPS; group++) {
-        for (k = 0; k < SINGLES; k++) fprintf(f.stream, ",\"%s\"", materials[group * SINGLES + k].name);
-        fprintf(f.stream, ",mean");
+        for (k = 0; k < SINGLES; k++) csv_text(&table, materials[group * SINGLES + k].name);
+        csv_text(&table, "mean");
     }
-    fprintf(f.stream, ",\"%s\"\n", materials[ALL_THREE].name);
+    csv_text(&table, materials[ALL_THREE].name);
+    csv_row(&table);
     for (i = 0; i < c->count; i++) {
-        fprintf(f.stream, "%g", (double)grid_parameter(&methods[m], i));
+        csv_number(&table, (double)grid_parameter(&methods[m], i));
         for (group = 0; group < GROUPS; group++) {
-            for (k = 0; k < SINGLES; k++) fprintf(f.stream, ",%g", c->error[group * SINGLES + k][i]);
-            fprintf(f.stream, ",%g", mean_of_group(c, group, i));
+            for (k = 0; k < SINGLES; k++) csv_error(&table, c->error[group * SINGLES + k][i]);
+            csv_error(&table, mean_of_group(c, group, i));
         }
-        fprintf(f.stream, ",%g\n", c->error[ALL_THREE][i]);
+        csv_error(&table, c->error[ALL_THREE][i]);
+        csv_row(&table);
     }
-    end_csv(&f, what);
+    csv_end(&table, o->out, rest, what);
 }
 
 /* One method's four columns: errors of a material at its own best parameter and at the group's, and the parameters */
@@ -362,7 +365,7 @@ static void compare_materials(const settings *o, float shared[2]) {
     for (i = 0; i < MATERIALS; i++) {
         const filter_method m = i == ALL_THREE ? FILTER_EQ12 : group_methods[i / SINGLES];
         study s;
-        study_begin(&s, &materials[i], o->size.width, o->size.height, o->samples, o->reference, (unsigned)o->seed);
+        study_begin(&s, &materials[i], o);
         find_curve(&s, FILTER_NORMAL, i, normals);
         find_curve(&s, m, i, lobes);
         study_end(&s);
@@ -425,43 +428,104 @@ static const shown_scene scenes[SCENES] = {
     {{"layers", scene_gallery, look_layers, 0}, FILTER_EQ11, "three lobes each"},
     {{"spheres", scene_spheres, look_phong, 3}, FILTER_EQ12, "Phong of exponent 10, 100 and 1000 in bands"}};
 
-static void show_scene(const settings *o, const shown_scene *which, const float shared[2]) {
+static const char row_columns[] = "scene,method,radius,best_mse,best_parameter,best_second,shared_mse,filter_ms,"
+                                  "filter_ms_low,filter_ms_high,tap_ns";
+
+/* What one method does in one scene with kernels of one radius */
+typedef struct {
+    filter_method how;
+    int radius;
+    float best[2];
+    double error, shared_error; /* at its best, and at what was best for three exponents */
+    quartiles ms;               /* of a megapixel */
+} result_row;
+
+static void print_row(const result_row *r) {
+    const method_data *d = &methods[r->how];
+    char second[32] = "", at_shared[32] = "";
+    if (d->parameters > 1) snprintf(second, sizeof second, ", %.3g", (double)r->best[1]);
+    if (d->parameters == 1) snprintf(at_shared, sizeof at_shared, "%.5f", r->shared_error);
+    if (d->parameters > 0)
+        printf("%-20s%10.5f%10.3g%-20s%10s%14.0f%9.2f\n", d->name, r->error, (double)r->best[0], second, at_shared,
+               r->ms.median, r->ms.median / filter_taps(r->radius));
+    else
+        printf("%-20s%10.5f\n", d->name, r->error);
+}
+
+static void add_row(csv *table, const char *name, const result_row *r) {
+    const method_data *d = &methods[r->how];
+    int k;
+    csv_text(table, name);
+    csv_text(table, d->name);
+    csv_count(table, r->radius);
+    csv_error(table, r->error);
+    for (k = 0; k < 2; k++) {
+        if (k < d->parameters)
+            csv_error(table, (double)r->best[k]);
+        else
+            csv_skip(table, 1);
+    }
+    if (d->parameters == 1)
+        csv_error(table, r->shared_error);
+    else
+        csv_skip(table, 1);
+    if (d->parameters > 0) {
+        csv_quartiles(table, r->ms);
+        csv_number(table, r->ms.median / filter_taps(r->radius));
+    } else { /* nothing is done */
+        csv_skip(table, 4);
+    }
+    csv_row(table);
+}
+
+/* Each method at its best with kernels of the study's radius. Those that the picture shows go there, if there is one. */
+static void compare_filters(study *s, const shown_scene *which, const float shared[2], image *sheet,
+                            result_row rows[FILTER_METHODS]) {
     static const filter_method columns[SHEET_COLUMNS - 1] = {FILTER_UNFILTERED, FILTER_NORMAL, FILTER_BANDLIMIT,
                                                              FILTER_METHODS};
+    const double megapixels = 1e-6 * s->f.width * s->f.height;
     float best[FILTER_METHODS][2];
-    double error[FILTER_METHODS], ms[FILTER_METHODS];
+    quartiles ms[FILTER_METHODS];
     progress line = progress_begin(which->what.name, FILTER_METHODS);
+    int m, k;
+    for (m = 0; m < FILTER_METHODS; m++) {
+        rows[m].how = (filter_method)m;
+        rows[m].radius = s->radius;
+        rows[m].error = search(s, (filter_method)m, 2, best[m], &line);
+        memcpy(rows[m].best, best[m], sizeof best[m]);
+        for (k = 0; sheet && k < SHEET_COLUMNS - 1; k++) {
+            if (m == (int)(columns[k] == FILTER_METHODS ? which->shown : columns[k]))
+                paste_with_difference(&s->f, sheet, &s->result, &s->wanted.mean, k);
+        }
+        if (methods[m].parameters == 1)
+            rows[m].shared_error = try_filter(s, (filter_method)m, &shared[m == FILTER_NORMAL ? 0 : 1]);
+    }
+    progress_end(&line);
+    time_methods(s, best, ms);
+    for (m = 0; m < FILTER_METHODS; m++) rows[m].ms = quartiles_scaled(ms[m], 1 / megapixels);
+}
+
+static void show_scene(const settings *o, const shown_scene *which, const float shared[2], csv *table) {
     char rest[64];
     image sheet = image_create(SHEET_COLUMNS * o->size.width, 2 * o->size.height);
     study s;
-    int m, k;
-    study_begin(&s, &which->what, o->size.width, o->size.height, o->samples, o->reference, (unsigned)o->seed);
-    for (m = 0; m < FILTER_METHODS; m++) {
-        error[m] = search(&s, (filter_method)m, 2, best[m], &line);
-        for (k = 0; k < SHEET_COLUMNS - 1; k++) {
-            if (m == (int)(columns[k] == FILTER_METHODS ? which->shown : columns[k]))
-                paste_with_difference(&s.f, &sheet, &s.result, &s.wanted.mean, k);
+    int m, i;
+    study_begin(&s, &which->what, o);
+    for (i = 0; i < o->radii.count; i++) {
+        result_row rows[FILTER_METHODS];
+        if (i > 0) study_resize(&s, o->radii.value[i]);
+        compare_filters(&s, which, shared, i > 0 ? NULL : &sheet, rows);
+        printf("\n%s: %s", which->what.name, which->about);
+        if (o->radii.count > 1) printf("; filters of radius %d", s.radius);
+        printf("\n\n%-20s%10s%10s  %-18s%10s%14s%9s\n", "", "MSE", "best at", "", "at shared", "ms/megapixel",
+               "ns/tap");
+        for (m = 0; m < FILTER_METHODS; m++) {
+            print_row(&rows[m]);
+            add_row(table, which->what.name, &rows[m]);
         }
+        fflush(stdout);
     }
     image_paste(&sheet, &s.wanted.mean, (SHEET_COLUMNS - 1) * o->size.width, 0);
-    progress_end(&line);
-    time_methods(&s, best, ms);
-    printf("\n%s: %s\n\n%-20s%10s%10s  %-18s%10s%14s%9s\n", which->what.name, which->about, "", "MSE", "best at", "",
-           "at shared", "ms/megapixel", "ns/tap");
-    for (m = 0; m < FILTER_METHODS; m++) {
-        const method_data *d = &methods[m];
-        const double megapixels = 1e-6 * o->size.width * o->size.height;
-        char second[32] = "", at_shared[32] = "";
-        if (d->parameters > 1) snprintf(second, sizeof second, ", %.3g", (double)best[m][1]);
-        if (d->parameters == 1)
-            snprintf(at_shared, sizeof at_shared, "%.5f",
-                     try_filter(&s, (filter_method)m, &shared[m == FILTER_NORMAL ? 0 : 1]));
-        if (d->parameters > 0)
-            printf("%-20s%10.5f%10.3g%-20s%10s%14.0f%9.2f\n", d->name, error[m], (double)best[m][0], second, at_shared,
-                   ms[m] / megapixels, ms[m] / megapixels / FILTER_TAPS);
-        else
-            printf("%-20s%10.5f\n", d->name, error[m]);
-    }
     snprintf(rest, sizeof rest, "-%s.png", which->what.name);
     write_picture(o->out, rest, &sheet, "noisy, Eq. 4, the same with a bandlimit, with lobes, reference; errors below");
     image_free(&sheet);
@@ -724,6 +788,10 @@ static void find_upsampling_best(const upsampler *first, const frame *f, const c
 
 enum { UPSAMPLERS = 8 };
 
+static const char upsampling_columns[] =
+    "method,in_time,anew,mse,poor,weights_ms,weights_ms_low,weights_ms_high,shading_ms,shading_ms_low,shading_ms_high,"
+    "total_ms,total_ms_low,total_ms_high";
+
 static void show_upsampling(const settings *o) {
     static const subject what = {"upsampling", scene_gallery, look_tiles, 0};
     const int width = o->size.width, height = o->size.height;
@@ -732,7 +800,10 @@ static void show_upsampling(const settings *o) {
     upsampler u[UPSAMPLERS];
     image sheet = image_create(SHEET_COLUMNS * width, 2 * height);
     progress line = progress_begin("upsampling", FRAMES);
-    double coarse_ms = 0, full_ms, count = 0;
+    double coarse_ms, full_ms, count = 0;
+    enum { WEIGHTS, SHADING, TOTAL, TIMES };
+    timing taken[UPSAMPLERS][TIMES];
+    csv table = csv_begin(upsampling_columns);
     frame f, last;
     coarse low;
     truth wanted;
@@ -741,6 +812,7 @@ static void show_upsampling(const settings *o) {
     low.height = height / UPSAMPLE_CELL;
     low.colours = (vec3 *)allocate("images", (size_t)(low.width * low.height), sizeof *low.colours);
     memset(u, 0, sizeof u);
+    memset(taken, 0, sizeof taken);
     for (k = 0; k < UPSAMPLERS; k++) {
         u[k].lobes = k & 1;
         u[k].temporal = k >> 1 & 1;
@@ -765,8 +837,13 @@ static void show_upsampling(const settings *o) {
         shade_coarse(&f, &low, number, o->reference, seed);
         coarse_ms = progress_clock() - started;
         for (k = 0; k < UPSAMPLERS; k++) {
-            if (u[k].temporal || number == FRAMES - 1)
-                upsample(&u[k], &f, number > 0 ? &last : NULL, motion, &low, o->reference, seed);
+            const int is_timed = number >= FRAMES - ROUNDS && timing_goes_on(&taken[k][TOTAL], 1, ROUNDS, LIMIT_MS);
+            if (!u[k].temporal && !is_timed && number < FRAMES - 1) continue;
+            upsample(&u[k], &f, number > 0 ? &last : NULL, motion, &low, o->reference, seed);
+            if (!is_timed) continue;
+            timing_add(&taken[k][WEIGHTS], u[k].filter_ms);
+            timing_add(&taken[k][SHADING], coarse_ms + u[k].shade_ms);
+            timing_add(&taken[k][TOTAL], coarse_ms + u[k].shade_ms + u[k].filter_ms);
         }
         if (number > 0) frame_free(&last);
         progress_step(&line);
@@ -785,10 +862,19 @@ static void show_upsampling(const settings *o) {
         "MSE", "poor or", "weights", "shading", "total");
     printf("%-34s%10s%12s%10s%12s%10s\n", "", "", "recomputed", "ms", "ms", "ms");
     for (k = 0; k < UPSAMPLERS; k++) {
+        const double error = error_of(&f, &u[k].result, &wanted), poor = 100 * u[k].recomputed / count;
+        quartiles ms[TIMES];
+        for (i = 0; i < TIMES; i++) ms[i] = timing_quartiles(&taken[k][i]);
         printf("%-9s%-16s%-9s%10.5f%10.2f %%%10.2f%12.1f%10.1f\n", u[k].lobes ? "lobes," : "normals,",
-               u[k].temporal ? "space and time" : "space", u[k].adaptive ? " anew" : "",
-               error_of(&f, &u[k].result, &wanted), 100 * u[k].recomputed / count, u[k].filter_ms,
-               coarse_ms + u[k].shade_ms, u[k].filter_ms + coarse_ms + u[k].shade_ms);
+               u[k].temporal ? "space and time" : "space", u[k].adaptive ? " anew" : "", error, poor,
+               ms[WEIGHTS].median, ms[SHADING].median, ms[TOTAL].median);
+        csv_text(&table, u[k].lobes ? "lobes" : "normals");
+        csv_count(&table, u[k].temporal);
+        csv_count(&table, u[k].adaptive);
+        csv_error(&table, error);
+        csv_error(&table, poor);
+        for (i = 0; i < TIMES; i++) csv_quartiles(&table, ms[i]);
+        csv_row(&table);
     }
     find_upsampling_best(u, &f, &low, &wanted, seed);
     for (k = 0; k < SHEET_COLUMNS - 1; k++) {
@@ -799,6 +885,7 @@ static void show_upsampling(const settings *o) {
     printf("\n");
     write_picture(o->out, "-upsampling.png", &sheet,
                   "by normals; by lobes; in time too; and anew where poor; reference; errors below");
+    csv_end(&table, o->out, "-upsampling.csv", "the numbers of upsampling");
     for (k = 0; k < UPSAMPLERS; k++) {
         image_free(&u[k].result);
         image_free(&u[k].history);
@@ -917,7 +1004,7 @@ static void filter_buffers(const settings *o) {
     free(depth.values);
     free(normals.values);
     free(alphas.values);
-    room = filter_planes_create(noisy.width, noisy.height, 1);
+    room = filter_planes_create(noisy.width, noisy.height, o->radii.value[0], 1);
     result = image_create(noisy.width, noisy.height);
     filter_fill_colours(room, &noisy);
     filter_fill_planes(room, guides, FILTER_EQ12, &o->beta, o->depth_variance);
@@ -936,22 +1023,33 @@ static void filter_buffers(const settings *o) {
     image_free(&result);
 }
 
-static void check_study_files(const char *prefix) {
-    static const char *const rests[] = {"-similarity.csv", "-normals.csv", "-lobes.csv", "-weights.png",
-                                        "-upsampling.png"};
+static int is_shown(const settings *o, int i) {
+    return o->scene == 0 || o->scene == 1 + i;
+}
+
+static void check_study_files(const settings *o) {
+    static const char *const rests[] = {
+        ".csv", "-similarity.csv", "-normals.csv", "-lobes.csv", "-upsampling.csv", "-weights.png", "-upsampling.png"};
     char rest[64];
     int i;
-    for (i = 0; i < (int)(sizeof rests / sizeof *rests); i++) output_check(prefix, rests[i]);
+    for (i = 0; i < (int)(sizeof rests / sizeof *rests); i++) output_check(o->out, rests[i]);
     for (i = 0; i < SCENES; i++) {
+        if (!is_shown(o, i)) continue;
         snprintf(rest, sizeof rest, "-%s.png", scenes[i].what.name);
-        output_check(prefix, rest);
+        output_check(o->out, rest);
     }
 }
 
+static const char *const scene_choices[] = {"all", "tiles", "models", "brushed", "layers", "spheres", NULL};
+
 int main(int argc, char **argv) {
-    settings o = {{256, 192}, 8, 256, 0, "build/lobe_filter", NULL, NULL, NULL, NULL, 45, 8, 0.1f};
+    settings o = {{256, 192}, {1, {FILTER_RADIUS}}, 0, 8, 256, 0, "build/lobe_filter", NULL, NULL, NULL, NULL, 45, 8,
+                  0.1f};
     const option options[] = {
+        {"--scene S", OPTION_CHOICE, &o.scene, 0, 0, "what filters are compared in", scene_choices},
         OPTION_OF_SIZE(&o.size),
+        {"--radius N,...", OPTION_LIST, &o.radii, 1, 32,
+         "of the filters in pixels; the first for all, others in each scene", 0},
         {"--samples N", OPTION_WHOLE, &o.samples, 1, 4096, "paths a pixel of what is filtered", 0},
         {"--reference N", OPTION_WHOLE, &o.reference, 2, 65536, "paths a pixel of what that should be", 0},
         OPTION_OF_SEED(&o.seed),
@@ -967,6 +1065,7 @@ int main(int argc, char **argv) {
         {0, OPTION_WHOLE, 0, 0, 0, 0, 0},
     };
     float shared[2];
+    csv table = csv_begin(row_columns);
     int i;
     options_read(options, argc, argv,
                  "Filters and upsamples noisy glossy light by weights that know the reflection lobes and by others,\n"
@@ -975,14 +1074,18 @@ int main(int argc, char **argv) {
         filter_buffers(&o);
         return 0;
     }
-    check_study_files(o.out);
+    check_study_files(&o);
     printf("%dx%d pixels, %d paths each, %d for the reference; filters of %dx%d pixels. Errors are mean squares over\n"
-           "what is glossy; times are the medians of %d turns on one core, preparation included.\n",
-           o.size.width, o.size.height, o.samples, o.reference, 2 * FILTER_RADIUS + 1, 2 * FILTER_RADIUS + 1, ROUNDS);
+           "what is glossy; times are the medians of up to %d turns on one core, preparation included.\n",
+           o.size.width, o.size.height, o.samples, o.reference, 2 * o.radii.value[0] + 1, 2 * o.radii.value[0] + 1,
+           ROUNDS);
     compare_similarities(&o);
     compare_materials(&o, shared);
-    for (i = 0; i < SCENES; i++) show_scene(&o, &scenes[i], shared);
+    for (i = 0; i < SCENES; i++) {
+        if (is_shown(&o, i)) show_scene(&o, &scenes[i], shared, &table);
+    }
     show_weights(&o);
     show_upsampling(&o);
+    csv_end(&table, o.out, ".csv", "errors and times of the filters in each scene");
     return 0;
 }

@@ -11,6 +11,7 @@
 #include "../fis.h"
 #include "common/brdf.h"
 #include "common/buffers.h"
+#include "common/csv.h"
 #include "common/fail.h"
 #include "common/file.h"
 #include "common/image.h"
@@ -30,7 +31,8 @@
 
 enum {
     RSM_SIZE = 512,
-    REPEATS = 7,          /* of timings */
+    REPEATS = 7,          /* of timings, at most; but for the generation's, */
+    LIMIT_MS = 1000,      /* in so much time */
     KERNELS_SHOWN = 256,  /* in a panel */
     FINEST_LIGHTS = 8192, /* of what flicker is compared with */
     RECEIVER_STEP = 4,    /* flicker is looked at in pixels this many times as large */
@@ -47,6 +49,9 @@ typedef enum {
 static const char *const pdf_names[PDFS] = {"flux", "brsm"};
 static const char *const pdf_choices[] = {"both", "flux", "brsm", NULL};
 static const char *const scene_choices[] = {"room", "caustic", NULL};
+
+#define TABLE ".csv"
+#define GENERATION_TABLE "-generation.csv"
 
 typedef struct {
     int scene, pdf, method;
@@ -164,51 +169,64 @@ static image trace_reference(const scene *world, const buffer *view, const setti
 /* ---- how long generation takes: tables 1 and 2 ---- */
 
 typedef struct {
-    double ms[METHODS][STAGES];
+    quartiles ms[METHODS][STAGES];
 } generation_times;
 
-/* Medians. The methods take turns, so that what else the machine does meets all of them. */
+/* The methods take turns, so that what else the machine does meets all of them. */
 static generation_times time_generation(const vpl_map *map, const float *pdf, int count, const settings *o,
                                         const char *label) {
-    static double times[METHODS][STAGES][REPEATS];
+    timing times[METHODS][STAGES];
     generator g = generator_create(map->width, map->height, count);
     light_set set = light_set_create(count);
     progress line = progress_begin(label, REPEATS * METHODS);
     generation_times result;
     int i, how, stage;
-    memset(&result, 0, sizeof result);
+    memset(times, 0, sizeof times);
     for (i = -1; i < REPEATS; i++) { /* the first touches the memory */
         for (how = 0; how < METHODS; how++) {
             vsgl_generate(&g, map, pdf, (method)how, 1, (unsigned)o->seed, &set);
-            for (stage = 0; stage < STAGES && i >= 0; stage++) times[how][stage][i] = set.ms[stage];
+            for (stage = 0; stage < STAGES && i >= 0; stage++) timing_add(&times[how][stage], set.ms[stage]);
             if (i >= 0) progress_step(&line);
         }
     }
     progress_end(&line);
     for (how = 0; how < METHODS; how++) {
-        for (stage = 0; stage < STAGES; stage++) result.ms[how][stage] = progress_median(times[how][stage], REPEATS);
+        for (stage = 0; stage < STAGES; stage++) result.ms[how][stage] = timing_quartiles(&times[how][stage]);
     }
     light_set_free(&set);
     generator_free(&g);
     return result;
 }
 
+static const char generation_columns[] =
+    "pdf,method,view_texels_ms,view_texels_ms_low,view_texels_ms_high,view_pyramid_ms,view_pyramid_ms_low,"
+    "view_pyramid_ms_high,view_lights_ms,view_lights_ms_low,view_lights_ms_high,rsm_texels_ms,rsm_texels_ms_low,"
+    "rsm_texels_ms_high,rsm_pyramid_ms,rsm_pyramid_ms_low,rsm_pyramid_ms_high,rsm_lights_ms,rsm_lights_ms_low,"
+    "rsm_lights_ms_high,both_ms";
+
 static double sum_stages(const generation_times *t, int how) {
-    return t->ms[how][0] + t->ms[how][1] + t->ms[how][2];
+    return t->ms[how][0].median + t->ms[how][1].median + t->ms[how][2].median;
 }
 
-static void print_times(const generation_times *view, const generation_times *light, const char *pdf) {
+static void print_times(const generation_times *view, const generation_times *light, const char *pdf, csv *table) {
     const double fast = sum_stages(view, METHOD_FAST) + sum_stages(light, METHOD_FAST);
     const double density = sum_stages(view, METHOD_DENSITY) + sum_stages(light, METHOD_DENSITY);
     double more[METHODS];
-    int how;
+    int how, stage;
     for (how = 0; how < METHODS; how++) {
-        const double *v = view->ms[how], *l = light->ms[how], both = sum_stages(view, how) + sum_stages(light, how);
-        printf("%-5s %-9s %8.3f %8.3f %8.3f  %8.3f %8.3f %8.3f  %8.3f %7.2f %10.2f\n", pdf, method_names[how], v[0],
-               v[1], v[2], l[0], l[1], l[2], both, both / fast,
+        const quartiles *v = view->ms[how], *l = light->ms[how];
+        const double both = sum_stages(view, how) + sum_stages(light, how);
+        printf("%-5s %-9s %8.3f %8.3f %8.3f  %8.3f %8.3f %8.3f  %8.3f %7.2f %10.2f\n", pdf, method_names[how],
+               v[0].median, v[1].median, v[2].median, l[0].median, l[1].median, l[2].median, both, both / fast,
                sum_stages(light, how) / sum_stages(light, METHOD_FAST));
-        more[how] = v[STAGE_LIGHTS] - view->ms[METHOD_DENSITY][STAGE_LIGHTS] + l[STAGE_LIGHTS] -
-                    light->ms[METHOD_DENSITY][STAGE_LIGHTS];
+        csv_text(table, pdf);
+        csv_text(table, method_names[how]);
+        for (stage = 0; stage < STAGES; stage++) csv_quartiles(table, v[stage]);
+        for (stage = 0; stage < STAGES; stage++) csv_quartiles(table, l[stage]);
+        csv_number(table, both);
+        csv_row(table);
+        more[how] = v[STAGE_LIGHTS].median - view->ms[METHOD_DENSITY][STAGE_LIGHTS].median + l[STAGE_LIGHTS].median -
+                    light->ms[METHOD_DENSITY][STAGE_LIGHTS].median;
     }
     /* What comes before their lights is the same code. */
     printf("%-5s takes longer than density: bisection by %.2f %% of all generation, fast by %.2f %%\n", pdf,
@@ -216,7 +234,8 @@ static void print_times(const generation_times *view, const generation_times *li
     fflush(stdout);
 }
 
-static void measure_times(const vpl_map *view, const vpl_map *rsm, float *const pdfs[PDFS], const settings *o) {
+static void measure_times(const vpl_map *view, const vpl_map *rsm, float *const pdfs[PDFS], const settings *o,
+                          csv *table) {
     float *reflectance = weights_of(view);
     generation_times on_view = time_generation(view, reflectance, o->view_lights, o, "generation on the G-buffer");
     int kind;
@@ -229,7 +248,7 @@ static void measure_times(const vpl_map *view, const vpl_map *rsm, float *const 
         generation_times on_rsm;
         if (!pdfs[kind]) continue;
         on_rsm = time_generation(rsm, pdfs[kind], o->lights.value[0], o, "generation on the RSM");
-        print_times(&on_view, &on_rsm, pdf_names[kind]);
+        print_times(&on_view, &on_rsm, pdf_names[kind], table);
     }
     free(reflectance);
 }
@@ -237,6 +256,8 @@ static void measure_times(const vpl_map *view, const vpl_map *rsm, float *const 
 /* ---- how well the lights do ---- */
 
 /* Over the pixels: the root mean square of the standard deviation in time, and the median of it over the radiance */
+enum { RENDER_GENERATION, RENDER_SHADOWS, RENDER_SHADING, RENDER_STAGES };
+
 typedef struct {
     double rms, relative;
 } flicker;
@@ -245,7 +266,8 @@ typedef struct {
     method how;
     int count;
     float k;
-    double generation, visibility, shading, flux, firefly, rmse, relative;
+    timing taken[RENDER_STAGES], whole;
+    double flux, firefly, rmse, relative;
     flicker moving, still; /* of a light that moves; of a PDF whose noise does, alone */
     coverage covered;
 } row;
@@ -273,35 +295,44 @@ static int most_lights(const settings *o) {
     return most;
 }
 
-/* Generates and shades, and says in the row how well. */
+static void judge(const vpl_map *rsm, const float *pdf, const light_set *set, row *r, const image *reference,
+                  const image *indirect) {
+    double total = 0, brightest = 0, power;
+    int i;
+    for (i = 0; i < texel_count(rsm); i++) total += (double)vpl_weight(&rsm->texels[i]);
+    for (i = 0; i < set->count; i++) {
+        power = vsgl_power(&set->lights[i]);
+        brightest = power > brightest ? power : brightest;
+    }
+    r->flux = light_set_power(set) / total;
+    r->firefly = brightest * set->count / total;
+    r->rmse = image_rmse(indirect, reference);
+    r->relative = image_relative_error(indirect, reference);
+    if (!set->labels) r->covered = light_set_coverage(set, pdf, rsm->width, rsm->height);
+}
+
+/* Generates and shades, and says in the row how long it took and, with a reference, how well it did. */
 static void render(const scene *world, const vpl_map *view, const vpl_map *rsm, const float *pdf, const settings *o,
                    row *r, const image *reference, image *indirect) {
     generator g = generator_create(rsm->width, rsm->height, r->count);
     light_set set = light_set_create(r->count);
     shadow_map *maps = (shadow_map *)allocate("shadow maps", (size_t)r->count, sizeof *maps);
-    double total = 0, brightest = 0, power, started;
+    double ms[RENDER_STAGES], started;
     char label[64];
     int i;
     vsgl_generate(&g, rsm, pdf, r->how, r->k, (unsigned)o->seed, &set); /* also touches the memory */
     vsgl_generate(&g, rsm, pdf, r->how, r->k, (unsigned)o->seed, &set);
-    r->generation = set.ms[0] + set.ms[1] + set.ms[2];
+    ms[RENDER_GENERATION] = set.ms[0] + set.ms[1] + set.ms[2];
     started = progress_clock();
     vsgl_shadow_maps(world, set.lights, set.count, maps);
-    r->visibility = progress_clock() - started;
+    ms[RENDER_SHADOWS] = progress_clock() - started;
     started = progress_clock();
     snprintf(label, sizeof label, "%d lights, %s", r->count, method_names[r->how]);
     vsgl_shade(view, set.lights, maps, set.count, indirect->pixels, label);
-    r->shading = progress_clock() - started;
-    for (i = 0; i < texel_count(rsm); i++) total += (double)vpl_weight(&rsm->texels[i]);
-    for (i = 0; i < set.count; i++) {
-        power = vsgl_power(&set.lights[i]);
-        brightest = power > brightest ? power : brightest;
-    }
-    r->flux = light_set_power(&set) / total;
-    r->firefly = brightest * set.count / total;
-    r->rmse = image_rmse(indirect, reference);
-    r->relative = image_relative_error(indirect, reference);
-    if (!set.labels) r->covered = light_set_coverage(&set, pdf, rsm->width, rsm->height);
+    ms[RENDER_SHADING] = progress_clock() - started;
+    for (i = 0; i < RENDER_STAGES; i++) timing_add(&r->taken[i], ms[i]);
+    timing_add(&r->whole, ms[0] + ms[1] + ms[2]);
+    if (reference) judge(rsm, pdf, &set, r, reference, indirect);
     free(maps);
     light_set_free(&set);
     generator_free(&g);
@@ -399,26 +430,66 @@ static void measure_flicker(const scene *first, const light_set *view_lights, pd
     free(view.texels);
 }
 
-static void print_rows(const row *rows, int count, pdf_kind kind) {
-    int i;
+static void print_row(const row *r, pdf_kind kind, const quartiles ms[RENDER_STAGES]) {
+    printf("%-5s %6d %-9s", pdf_names[kind], r->count, method_names[r->how]);
+    if (method_is_filtered(r->how))
+        printf(" %2.0f", (double)r->k);
+    else
+        printf("  -");
+    printf(" %10.2f %7.1f %7.1f ", ms[RENDER_GENERATION].median, ms[RENDER_SHADOWS].median, ms[RENDER_SHADING].median);
+    if (method_is_labelling(r->how)) /* every texel is in one cluster */
+        printf("     -       -");
+    else
+        printf("%6.2f %7.2f", 100 * r->covered.gap, 100 * r->covered.overlap);
+    printf(" %7.2f  %.5f %.5f ", r->firefly, r->moving.rms, r->moving.relative);
+    if (kind == PDF_BRSM)
+        printf(" %.5f %.5f", r->still.rms, r->still.relative);
+    else
+        printf("       -       -");
+    printf("  %.5f  %.4f  %.6f\n", r->rmse, r->relative, r->flux);
+}
+
+static const char row_columns[] =
+    "pdf,lights,method,k,generation_ms,generation_ms_low,generation_ms_high,shadows_ms,shadows_ms_low,shadows_ms_high,"
+    "shading_ms,shading_ms_low,shading_ms_high,gap,overlap,firefly,flicker_moving_rms,flicker_moving,flicker_noise_rms,"
+    "flicker_noise,rmse,error,power";
+
+/* A field that is empty where there is no such number */
+static void error_or_none(csv *table, int known, double value) {
+    if (known)
+        csv_error(table, value);
+    else
+        csv_skip(table, 1);
+}
+
+static void add_row(csv *table, const row *r, pdf_kind kind, const quartiles ms[RENDER_STAGES]) {
+    int k;
+    csv_text(table, pdf_names[kind]);
+    csv_count(table, r->count);
+    csv_text(table, method_names[r->how]);
+    error_or_none(table, method_is_filtered(r->how), (double)r->k);
+    for (k = 0; k < RENDER_STAGES; k++) csv_quartiles(table, ms[k]);
+    error_or_none(table, !method_is_labelling(r->how), 100 * r->covered.gap);
+    error_or_none(table, !method_is_labelling(r->how), 100 * r->covered.overlap);
+    csv_error(table, r->firefly);
+    csv_error(table, r->moving.rms);
+    csv_error(table, r->moving.relative);
+    error_or_none(table, kind == PDF_BRSM, r->still.rms);
+    error_or_none(table, kind == PDF_BRSM, r->still.relative);
+    csv_error(table, r->rmse);
+    csv_error(table, r->relative);
+    csv_error(table, r->flux);
+    csv_row(table);
+}
+
+static void print_rows(const row *rows, int count, pdf_kind kind, csv *table) {
+    int i, k;
     for (i = 0; i < count; i++) {
         const row *r = &rows[i];
-        printf("%-5s %6d %-9s", pdf_names[kind], r->count, method_names[r->how]);
-        if (method_is_filtered(r->how))
-            printf(" %2.0f", (double)r->k);
-        else
-            printf("  -");
-        printf(" %10.2f %7.1f %7.1f ", r->generation, r->visibility, r->shading);
-        if (method_is_labelling(r->how)) /* every texel is in one cluster */
-            printf("     -       -");
-        else
-            printf("%6.2f %7.2f", 100 * r->covered.gap, 100 * r->covered.overlap);
-        printf(" %7.2f  %.5f %.5f ", r->firefly, r->moving.rms, r->moving.relative);
-        if (kind == PDF_BRSM)
-            printf(" %.5f %.5f", r->still.rms, r->still.relative);
-        else
-            printf("       -       -");
-        printf("  %.5f  %.4f  %.6f\n", r->rmse, r->relative, r->flux);
+        quartiles ms[RENDER_STAGES];
+        for (k = 0; k < RENDER_STAGES; k++) ms[k] = timing_quartiles(&r->taken[k]);
+        print_row(r, kind, ms);
+        add_row(table, r, kind, ms);
     }
     fflush(stdout);
 }
@@ -546,7 +617,8 @@ static void compare(const settings *o) {
     light_set view_lights;
     float *pdfs[PDFS] = {NULL, NULL};
     row rows[MAX_ROWS], chosen;
-    int kind, last = 0, chosen_pdf = 0, i;
+    int kind, last = 0, chosen_pdf = 0, i, turn;
+    csv table = csv_begin(row_columns), generation_table = csv_begin(generation_columns);
     pixels = vpl_map_create(&seen, world.center);
     light_directly(&world, &seen, &direct);
     reference = trace_reference(&world, &seen, o);
@@ -556,7 +628,7 @@ static void compare(const settings *o) {
         pdfs[kind] = build_pdf(&rsm, &view_lights, (pdf_kind)kind, 0, o);
         last = kind;
     }
-    measure_times(&view, &rsm, pdfs, o);
+    measure_times(&view, &rsm, pdfs, o, &generation_table);
     memset(&chosen, 0, sizeof chosen);
     chosen.relative = 1e30;
     printf(
@@ -577,15 +649,23 @@ static void compare(const settings *o) {
             chosen_pdf = kind;
             image_paste(&best, &indirect, 0, 0);
         }
+        for (turn = 1; turn < REPEATS; turn++) {
+            for (i = 0; i < row_count; i++) {
+                if (timing_goes_on(&rows[i].whole, 1, REPEATS, LIMIT_MS))
+                    render(&world, &pixels, &rsm, pdfs[kind], o, &rows[i], NULL, &indirect);
+            }
+        }
         measure_flicker(&world, &view_lights, (pdf_kind)kind, 1, o, rows, row_count);
         if (kind == PDF_BRSM) measure_flicker(&world, &view_lights, PDF_BRSM, 0, o, rows, row_count);
-        print_rows(rows, row_count, (pdf_kind)kind);
+        print_rows(rows, row_count, (pdf_kind)kind, &table);
     }
     printf("\n");
     write_pictures(o->out, &direct, &best, &reference, o->scene == 0 ? 2.2f : 0.6f);
     printf("their lights are those of the smallest error: %d by %s, PDF %s\n", chosen.count, method_names[chosen.how],
            pdf_names[chosen_pdf]);
     write_kernels(&rsm, pdfs[last], pdf_names[last], o);
+    csv_end(&table, o->out, TABLE, "the numbers of the second table");
+    csv_end(&generation_table, o->out, GENERATION_TABLE, "those of the first");
     for (kind = 0; kind < PDFS; kind++) free(pdfs[kind]);
     light_set_free(&view_lights);
     free(rsm.texels);
@@ -648,6 +728,8 @@ int main(int argc, char **argv) {
         convert(&o);
     } else {
         for (i = 0; i < PICTURES; i++) output_check(o.out, picture_names[i]);
+        output_check(o.out, TABLE);
+        output_check(o.out, GENERATION_TABLE);
         compare(&o);
     }
     return 0;

@@ -16,7 +16,7 @@ static void eval_matches(void) {
     test_bound bound = test_bound_of("asg.h", "asg_eval", "directional");
     test_rng rng = {101 + test_seed};
     int i;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_few(200000); i++) {
         double axis[3], dir[3], lx = test_log_uniform(&rng, bound.low, bound.high), ly = lx, wanted, e, z, inputs[8];
         asg_lobe a;
         exact_asg exact;
@@ -184,7 +184,7 @@ static void sg_integrals_match(void) {
     test_rng rng = {104 + test_seed};
     double squares = 0, xu_squares = 0;
     int i, count = 0, xu_count = 0;
-    for (i = 0; i < 1200; i++) {
+    for (i = 0; i < test_few(1200); i++) {
         double z[3], axis[3], inputs[4], wanted, aligned, lx, ly, lg, angle;
         asg_lobe a;
         sg_lobe g, ahead;
@@ -253,7 +253,7 @@ static void sg_integral_rounds(void) {
     test_bound bound = test_bound_of("asg.h", "asg_sg_integral", "formula");
     test_rng rng = {129 + test_seed};
     int i, k;
-    for (i = 0; i < 50000; i++) {
+    for (i = 0; i < test_few(50000); i++) {
         double z[3], axis[3], inputs[4], wanted, aligned, e, angle;
         asg_lobe a;
         sg_lobe g;
@@ -288,7 +288,7 @@ static void sg_integral_gains(void) {
     test_rng rng = {123 + test_seed};
     double squares[4] = {0}, xu_squares[4] = {0}, inputs[4];
     int i, range;
-    for (i = 0; i < 1600; i++) {
+    for (i = 0; i < test_few(1600); i++) {
         double z[3], axis[3], wanted, aligned, angle;
         asg_lobe a;
         sg_lobe g;
@@ -381,7 +381,7 @@ static void form_keeps_its_word(void) {
     int form, start, i;
     for (form = ASG_FORM_SG; form <= ASG_FORM_XU; form++) {
         double least = 0;
-        for (start = 0; start < 12; start++) {
+        for (start = 0; start < test_few(12); start++) {
             double best = -1, inputs[6], step = 0.3;
             form_case c;
             memset(&c, 0, sizeof c);
@@ -580,7 +580,7 @@ static void sg_integrals_sharp_limit(void) {
 static void sg_integrals_stay_below_aligned(void) {
     test_rng rng = {120 + test_seed};
     int i;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_few(200000); i++) {
         double z[3], axis[3], inputs[4], aligned, got, least; /* of the exponent */
         asg_lobe a;
         inputs[0] = test_log_uniform(&rng, 1e-3, 1e12);
@@ -614,7 +614,7 @@ static void products_match(void) {
     test_rng rng = {106 + test_seed};
     double squares = 0, xu_squares = 0;
     int i, k, count = 0, xu_count = 0;
-    for (i = 0; i < 400; i++) {
+    for (i = 0; i < test_few(400); i++) {
         double z[3], other[3], l[4], inputs[5], wanted, first, second, aligned, got, smallest, angle;
         asg_lobe a, b;
         smallest = test_log_uniform(&rng, bound.low, i % 2 ? 10 : 0.1 * bound.high);
@@ -722,7 +722,7 @@ static void product_rounds(void) {
     test_bound bound = test_bound_of("asg.h", "asg_product_integral", "formula");
     test_rng rng = {130 + test_seed};
     int i, k;
-    for (i = 0; i < 50000; i++) {
+    for (i = 0; i < test_few(50000); i++) {
         double z[3], other[3], inputs[5], wanted, aligned, smallest = test_log_uniform(&rng, bound.low, bound.high);
         double most = 0, e;
         asg_lobe a, b;
@@ -750,7 +750,7 @@ static void products_round(void) {
     test_bound xu = test_bound_of("asg.h", "asg_product_integral_xu", "directional");
     test_rng rng = {107 + test_seed};
     int i;
-    for (i = 0; i < 300; i++) {
+    for (i = 0; i < test_few(300); i++) {
         double z[3], other[3], inputs[5], wanted, aligned, e, unit, smallest;
         asg_lobe a, b;
         test_direction(&rng, z);
@@ -855,12 +855,20 @@ static void xu_needs_no_eigenvectors(void) {
     test_report(&bound);
 }
 
+#ifndef __FAST_MATH__
+/* Whether a * b + c is rounded once, of a number whose square rounds. */
+static int contracts(volatile float number) {
+    float x = number, y = number;
+    return x * y - (1 + 0x1p-11f) != 0;
+}
+#endif
+
 static void products_are_bounded(void) {
     test_bound excess = test_bound_of("asg.h", "asg_product_integral", "excess");
     test_bound symmetric = test_bound_of("asg.h", "asg_product_integral", "symmetric");
     test_rng rng = {108 + test_seed};
     int i;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         double inputs[5], w, back, first, second;
         asg_lobe a, b;
         draw_near_asgs(&rng, i, 1e9, inputs, &a, &b);
@@ -869,9 +877,9 @@ static void products_are_bounded(void) {
         w = weight((double)asg_product_integral(a, b), first, second);
         back = weight((double)asg_product_integral(b, a), first, second);
         test_that(w >= 0, "an integral is not negative", inputs, 5);
-#if !defined(__FAST_MATH__) && !(defined(__clang__) && defined(__FMA__)) /* then sums are as written; no shader's are */
-        test_that(test_slack > 1 || asg_product_integral(a, b) == asg_product_integral(b, a), "exactly symmetric",
-                  inputs, 5);
+#ifndef __FAST_MATH__ /* then sums are as written, if they are not contracted; no shader's are */
+        test_that(test_slack > 1 || contracts(1 + 0x1p-12f) || asg_product_integral(a, b) == asg_product_integral(b, a),
+                  "exactly symmetric", inputs, 5);
 #endif
         test_within(&excess, fmax(w, 1), 1, 1, inputs, 5);
         test_within(&symmetric, w, back, 1, inputs, 5);
@@ -888,7 +896,7 @@ static int nearly(float a, float b) {
 static void extremes_saturate(void) {
     test_rng rng = {131 + test_seed};
     int i;
-    for (i = 0; i < 2000; i++) {
+    for (i = 0; i < test_few(2000); i++) {
         double z[3], axis[3], inputs[2], other = test_log_uniform(&rng, 1e-3, 1e30);
         asg_lobe a, b, c, d;
         sg_lobe g;
@@ -957,7 +965,7 @@ static void convolve_widens(void) {
 static void convolve_is_consistent(void) {
     test_rng rng = {110 + test_seed};
     int i;
-    for (i = 0; i < 2000; i++) {
+    for (i = 0; i < test_few(2000); i++) {
         const double up[3] = {0, 0, 1};
         double inputs[2];
         asg_lobe a, once, twice;
@@ -1034,7 +1042,7 @@ static void ggx_frames(void) {
     test_bound same = test_bound_of("asg.h", "asg_reflection_lobe_aniso", "cosine");
     test_rng rng = {112 + test_seed};
     int i, k;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         double n[3], w[3], t[3], mirror[3], inputs[7], cosine, angle, alpha, sx, sy;
         asg_lobe a, b, c;
         test_direction(&rng, n);
@@ -1230,7 +1238,7 @@ static void lobes_match_distributions(void) {
         test_bound integral = test_bound_of("asg.h", names[kind], "integral");
         test_bound value = test_bound_of("asg.h", names[kind], "value");
         test_bound sharp = test_bound_of("asg.h", names[kind], "sharp");
-        for (i = 0; i < 60; i++) {
+        for (i = 0; i < test_few(60); i++) {
             const double n[3] = {0, 0, 1};
             test_bound *bound = i % 3 ? &value : &sharp;
             const int anisotropic = i % 2 && kind != NDF_PHONG, power = kind == NDF_PHONG || kind == NDF_ASHIKHMIN;
@@ -1251,7 +1259,7 @@ static void lobes_match_distributions(void) {
             width = power ? sqrt(2 / fmax(c.x, c.y)) : fmin(c.x, c.y);
             wanted = reference_sphere_azimuth(ndf_value, &c, z, 1 / (width * width), anisotropic ? 256 : 64);
             if (bound == &value) test_within(&integral, (double)asg_integral(a), wanted, wanted, inputs, 4);
-            for (k = 0; k < 500; k++) {
+            for (k = 0; k < test_few(500); k++) {
                 double w[3];
                 direction_near(&rng, z, fmin(width * test_log_uniform(&rng, 0.1, 30), 3), w);
                 test_within(bound, (double)asg_eval(a, narrow(w)), ndf_value(w, &c), 1, inputs, 4);
@@ -1267,7 +1275,7 @@ static void lobes_match_distributions(void) {
 static void lobes_agree(void) {
     test_rng rng = {128 + test_seed};
     int i;
-    for (i = 0; i < 110000; i++) {
+    for (i = 0; i < test_few(110000); i++) {
         const float alpha = (float)test_log_uniform(&rng, 1e-3, 1), sharpness = 1 / (alpha * alpha);
         double n[3], w[3], t[3], inputs[1];
         asg_lobe a, b;

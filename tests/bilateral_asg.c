@@ -8,9 +8,9 @@
 static void weights_match(void) {
     test_bound bound = test_bound_of("bilateral.h", "bilateral_asg_weight", "model");
     test_bound rms = test_bound_of("bilateral.h", "bilateral_asg_weight", "rms");
-    test_rng rng = {126};
+    test_rng rng = {126 + test_seed};
     double squares = 0;
-    const int count = 800;
+    const int count = test_few(800);
     int i, k;
     for (i = 0; i < count; i++) {
         double z[3], other[3], inputs[5], got, wanted, smallest = test_log_uniform(&rng, bound.low, 0.1 * bound.high);
@@ -100,7 +100,7 @@ static float weight_itself(asg_lobe a, asg_lobe b) {
 
 /* Fig. 19 of 004: eigenvalues by Cardano's formula in floats make bands. */
 static void no_bands(void) {
-    test_rng rng = {140};
+    test_rng rng = {140 + test_seed};
     double ours = 0, theirs = 0;
     int i;
     for (i = 0; i < 8; i++) {
@@ -126,9 +126,9 @@ static void put_planes(const bilateral_asg *p, const float *planes[13]) {
 static void weights_are_weights(void) {
     test_bound symmetric = test_bound_of("bilateral.h", "bilateral_asg_weight", "symmetric");
     test_bound rows = test_bound_of("bilateral.h", "bilateral_asg_taps", "rel");
-    test_rng rng = {108};
+    test_rng rng = {108 + test_seed};
     int i;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         double inputs[6];
         float beta, w, back, row = -1.5f;
         bilateral_asg first, second;
@@ -163,7 +163,7 @@ static void weights_are_weights(void) {
 static void weights_stay_numbers(void) {
     enum { POOL = 600 };
     static asg_lobe pool[POOL];
-    test_rng rng = {127};
+    test_rng rng = {127 + test_seed};
     int i, k, wrong = 0;
     for (i = 0; i < POOL; i++) {
         double z[3], inputs[2];
@@ -174,7 +174,7 @@ static void weights_stay_numbers(void) {
         if (i % 3) inputs[0] = fmin(inputs[0], 1e6), inputs[1] = fmin(inputs[1], 1e8);
         pool[i] = lobe_around(z, i % 5 ? 7 * test_uniform(&rng) : 0, inputs[0], inputs[1]);
     }
-    for (i = 0; i < 1000000; i++) {
+    for (i = 0; i < test_few(1000000); i++) {
         const asg_lobe a = pool[(int)(POOL * test_uniform(&rng))], b = pool[(int)(POOL * test_uniform(&rng))];
         float w = bilateral_asg_weight(a, b, i % 2 ? 20.f : 1e-3f);
         wrong += !test_is_finite(w) || !(w >= 0) || !(w <= 1);

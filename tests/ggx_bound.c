@@ -116,7 +116,7 @@ static vec half_vector(vec n, double alpha) {
 static void test_ndf(void) {
     test_bound iso = bound_of("ggx_ndf", "angular"), aniso = bound_of("ggx_ndf_aniso", "angular");
     int i;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_few(200000); i++) {
         float ax = float_of(log_uniform(iso.low, iso.high)), ay = float_of(log_uniform(aniso.low, aniso.high));
         lobe_vec3 n = nearly_unit(random_direction()), t = nearly_unit(random_direction());
         lobe_vec3 h = nearly_unit(half_vector(unit(wide(n)), (double)(pick(2) ? ax : ay)));
@@ -144,7 +144,7 @@ static void test_smith(void) {
     test_bound g1 = bound_of("ggx_smith_g1", "ulp"), g2 = bound_of("ggx_smith_g2", "ulp");
     test_bound aniso = bound_of("ggx_smith_g1_aniso", "grazing");
     int i;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_few(200000); i++) {
         float alpha = float_of(log_uniform(1e-4, 1)), ay = float_of(log_uniform(1e-4, 1));
         double c = (double)float_of(log_uniform(g1.low, g1.high)), o = (double)float_of(log_uniform(g2.low, g2.high));
         double a2 = (double)alpha * (double)alpha, si, so, wanted;
@@ -203,7 +203,7 @@ static void test_brdf(void) {
     test_bound separable = bound_of("ggx_brdf_cos_separable", "angular");
     test_bound aniso = bound_of("ggx_brdf_cos_aniso", "angular");
     int i;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_few(200000); i++) {
         float ax = float_of(log_uniform(1e-4, 1)), ay = float_of(log_uniform(1e-4, 1));
         double a = (double)ax, least = fmin((double)ax, (double)ay), ci, co, wanted, short_sum, units;
         lobe_vec3 n = nearly_unit(random_direction()), t = nearly_unit(random_direction()), wi, wo;
@@ -503,7 +503,7 @@ static void test_ellipsoid_aniso(void) {
 
 static void test_spheres(void) {
     int i;
-    for (i = 0; i < 100000; i++) { /* the reach at the NDF's peak, where grazing angles make it uncertain */
+    for (i = 0; i < test_few(100000); i++) { /* the reach at the NDF's peak, where grazing angles make it uncertain */
         light l = draw_light(1e-3, 1e5);
         vec mirror = combine(2 * dot(l.i, l.n), l.n, -1, l.i);
         ggx_sphere s = ggx_bound_sphere(l.position, l.normal, l.wi, l.alpha_x, l.flux, l.fresnel, l.delta, l.xi);
@@ -681,7 +681,7 @@ static void test_accept(void) {
     test_bound probability = bound_of("ggx_accept_probability", "ulp"), range = bound_of("ggx_range", "ulp");
     test_bound weight = bound_of("ggx_accept_weight", "ulp"), estimate = bound_of("ggx_estimate", "ulp");
     int i;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_few(200000); i++) {
         float intensity = float_of(log_uniform(1e-9, 1e9)), squared = float_of(log_uniform(1e-9, 1e9));
         float delta = float_of(log_uniform(1e-6, 1)), xi = ggx_xi((unsigned)(4294967296.0 * uniform())), got;
         double p = (double)intensity / ((double)delta * (double)squared), wanted;
@@ -731,7 +731,7 @@ static void test_fresnel(void) {
     test_bound ulp = bound_of("ggx_fresnel", "ulp"), most = bound_of("ggx_fresnel_max", "abs");
     test_bound half = bound_of("ggx_cos_half", "abs");
     int i;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         float f0 = float_of(pick(5) ? uniform() : 0.04), c = float_of(uniform());
         double ci, fine = 1 - (double)c, wanted = (double)f0 + (1 - (double)f0) * pow(fine, 5), sup;
         vec n = random_direction(), wi = incidence(n, &ci), wo = towards(n, perpendicular(n), acos(uniform())), mirror;
@@ -993,7 +993,7 @@ static void test_sharp(void) {
     lobe_vec3 n = {0, 0, 1};
     double naive = 0;
     int i;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         double x = log_uniform(1e-6, 1e-2);
         lobe_vec3 h = narrow(of(x * 0.6, x * 0.8, sqrt(1 - x * x)));
         long double s2 = (long double)h.x * (long double)h.x + (long double)h.y * (long double)h.y;
@@ -1162,7 +1162,7 @@ static void test_boxes(void) {
     test_bound slack = bound_of("ggx_ellipsoid_hits_half_space", "slack");
     long touching = 0;
     int i, k;
-    for (i = 0; i < 200000; i++) { /* what touches must be found */
+    for (i = 0; i < test_few(200000); i++) { /* what touches must be found */
         ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-2, 1e4), 1e-4);
         double away = pick(2) ? log_uniform(1, 1e4) : 0, size = (double)e.radius[0] * log_uniform(1e-3, 1e3);
         lobe_vec3 center = narrow(combine(away, random_direction(), 0, random_direction()));
@@ -1201,7 +1201,7 @@ static void test_boxes(void) {
         }
     }
     begin();
-    that(touching > 50000, "enough boxes touch");
+    that(touching > test_few(50000), "enough boxes touch");
     test_report(&extent);
 }
 
@@ -1243,7 +1243,7 @@ static void test_boxes_near(void) {
     test_bound false_hits = bound_of("ggx_ellipsoid_hits_box", "false_hits");
     long apart = 0, told = 0;
     int i, k;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         ggx_ellipsoid e = random_ellipsoid(1, 0.03);
         lobe_vec3 half = narrow(of(log_uniform(0.02, 1), log_uniform(0.02, 1), log_uniform(0.02, 1)));
         lobe_vec3 center;
@@ -1274,7 +1274,7 @@ static void test_boxes_near(void) {
 /* A camera that looks anywhere from anywhere: what was inside is inside of the turned ellipsoid */
 static void test_transform(void) {
     int i, k;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_few(200000); i++) {
         ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-2, 1e4), 1e-4), turned;
         vec u = random_direction(), v = perpendicular(u), p, offset;
         lobe_vec3 view[3], eye = narrow(combine(log_uniform(1e-2, 1e4), random_direction(), 0, u));
@@ -1318,7 +1318,7 @@ static void record_tile(ggx_tile t, float depth0, float depth1) {
 static void test_tiles(void) {
     long touching = 0;
     int i;
-    for (i = 0; i < 200000; i++) {
+    for (i = 0; i < test_few(200000); i++) {
         ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-2, 1e3), 1e-3);
         ggx_tile t = random_tile();
         float depth0 = pick(8) ? float_of(log_uniform(1e-2, 1e3)) : 0;
@@ -1362,7 +1362,7 @@ static void test_tiles(void) {
                  "an empty cluster is not hit");
     }
     begin();
-    that(touching > 50000, "enough tiles are touched");
+    that(touching > test_few(50000), "enough tiles are touched");
 }
 
 /* Those near the ellipsoid, by chance */
@@ -1372,7 +1372,7 @@ static void test_tiles_near(void) {
     test_bound closer = bound_of("ggx_stretched_hits_frustum", "false_hits");
     long apart = 0, hits = 0, apart_by_both = 0, hits_both = 0, apart_closer = 0, hits_closer = 0;
     int i;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         ggx_ellipsoid e = random_ellipsoid(log_uniform(0.1, 3), 0.03);
         ggx_tile t = random_tile();
         float depth0 = float_of(log_uniform(0.5, 5)), depth1 = depth0 * (1 + float_of(log_uniform(1e-2, 1)));
@@ -1409,7 +1409,7 @@ static void test_tiles_near(void) {
 static void test_tile_above(void) {
     test_bound above = bound_of("ggx_tile_above", "slack");
     int i;
-    for (i = 0; i < 100000; i++) {
+    for (i = 0; i < test_few(100000); i++) {
         ggx_tile t = random_tile();
         float depth0 = float_of(log_uniform(0.01, 100)), depth1 = depth0 * (1 + float_of(log_uniform(1e-3, 10)));
         lobe_vec3 n = nearly_unit(random_direction()), q;

@@ -5,10 +5,12 @@
 #include <string.h>
 
 static void usage(FILE *to) {
-    fprintf(to, "usage: tests [--verbose] [--long] [--seed N] [--root DIR] [NAME]\n"
+    fprintf(to, "usage: tests [--verbose] [--quick | --long] [--climb N] [--seed N] [--root DIR] [NAME]\n"
                 "  NAME       run only the tests whose name contains it\n"
                 "  --verbose  print the largest error seen beside each bound\n"
+                "  --quick    a tenth of the draws, at most, where there are many: for slow machines\n"
                 "  --long     search four hundred times longer for what exceeds a bounding volume\n"
+                "  --climb    run each test N times more, each time drawn near the worst so far\n"
                 "  --seed     draw other inputs (default: 0)\n"
                 "  --root     where the headers are (default: .)\n");
 }
@@ -26,6 +28,15 @@ int main(int argc, char **argv) {
             test_verbose = 1;
         } else if (!strcmp(argv[i], "--long")) {
             test_repeat = 400;
+        } else if (!strcmp(argv[i], "--climb") && i + 1 < argc) {
+            test_rounds = atoi(argv[++i]);
+            if (test_rounds < 1) {
+                usage(stderr);
+                return 2;
+            }
+        } else if (!strcmp(argv[i], "--quick")) {
+            test_quick = 1;
+            test_most = 10000;
         } else if (!strcmp(argv[i], "--seed") && i + 1 < argc) {
             test_seed = strtoull(argv[++i], NULL, 10) << 32;
         } else if (!strcmp(argv[i], "--root") && i + 1 < argc) {

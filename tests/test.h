@@ -26,6 +26,9 @@ typedef struct {
 /* The tag of one function and kind in a header; a missing tag fails the test and gives a limit of 0. */
 test_bound test_bound_of(const char *header, const char *function, const char *kind);
 
+/* The same as the header has it; returns whether it has. of_model: the tag is one of a model, not of rounding. */
+int test_read_bound(const char *header, const char *function, const char *kind, test_bound *bound, int *of_model);
+
 /* Fails when |got - wanted| > limit * unit, or when got is not finite. The inputs are printed on failure. */
 void test_within(test_bound *bound, double got, double wanted, double unit, const double *inputs, int count);
 
@@ -54,16 +57,29 @@ void test_direction(test_rng *rng, double direction[3]);
 int test_run(const test_case *test);
 
 extern const char *test_root; /* where the headers are */
-extern int test_verbose, test_quiet;
+extern int test_verbose, test_quiet, test_quick;
 extern unsigned long long test_seed;
 extern int test_least, test_most;
 
 /* The count, but within these: shaders are asked about as often for each function. */
 int test_draws(int count);
+
+/* The count, or a tenth of it with --quick: where draws are slow, or many but none of shaders. */
+int test_few(int count);
+
 extern double test_slack; /* what limits of rounding are multiplied by: 1, more for shaders */
 
 /* How often random searches are to be repeated: 1, many with --long. */
 extern int test_repeat;
+
+/* What climb.c runs a test again for, this often: each bound is attacked from the worst of its draws. A check without
+   inputs is one of all draws together and left out. */
+extern int test_rounds;
+void test_climb(const test_case *test);
+void test_climbed(const test_bound *bound, double error);
+
+/* What is drawn in place of a number, while that search goes on; null otherwise. */
+extern double (*test_redraw)(const test_rng *rng, double drawn);
 
 /* A generator that starts anew with each test, so that a test draws the same alone as among others. */
 extern test_rng test_random;

@@ -89,7 +89,7 @@ gpu_filter *gpu_filter_create(gpu *device, const char *folder, const image *nois
     parameters.parameter = parameter;
     parameters.depth_variance = depth_variance;
     parameters.radius = FILTER_RADIUS;
-    parameters.kernel_variance = filter_kernel_variance;
+    parameters.kernel_variance = filter_kernel_variance(FILTER_RADIUS);
     f->raw = upload_guides(device, guides, count);
     f->buffers[LIGHT] = upload_colours(device, noisy->pixels, guides, count);
     f->buffers[GUIDES] = gpu_buffer_create(device, GPU_STORAGE, count * PREPARED_SIZE * sizeof(vec4));

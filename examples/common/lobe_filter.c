@@ -72,25 +72,25 @@ enum {
 };
 
 struct filter_planes {
-    int width, height, stride;
+    int width, height, stride, radius;
     int parts;                     /* most lobes of a pixel */
     float *memory, *plane[PLANES]; /* at the first pixel: the border is before it */
 };
 
 typedef filter_planes planes;
 
-filter_planes *filter_planes_create(int width, int height, int parts) {
+filter_planes *filter_planes_create(int width, int height, int radius, int parts) {
     planes *p = (planes *)allocate("images", 1, sizeof *p);
     size_t size;
     int k;
     p->width = width;
     p->height = height;
-    p->stride = width + 2 * FILTER_RADIUS;
+    p->radius = radius;
+    p->stride = width + 2 * radius;
     p->parts = parts;
-    size = (size_t)p->stride * (size_t)(height + 2 * FILTER_RADIUS);
+    size = (size_t)p->stride * (size_t)(height + 2 * radius);
     p->memory = (float *)allocate("images", size, PLANES * sizeof *p->memory);
-    for (k = 0; k < PLANES; k++)
-        p->plane[k] = p->memory + (size_t)k * size + (size_t)FILTER_RADIUS * (size_t)(p->stride + 1);
+    for (k = 0; k < PLANES; k++) p->plane[k] = p->memory + (size_t)k * size + (size_t)radius * (size_t)(p->stride + 1);
     return p;
 }
 
@@ -180,7 +180,7 @@ void filter_fill_row(const planes *p, const guide *guides, filter_method m, cons
     lobe_frame(lobe_vector(0, 0, 1), &outside.stretched.x, &outside.stretched.y);
     outside.stretched.z = lobe_vector(0, 0, 1);
     outside.stretched.sharpness_x = outside.stretched.sharpness_y = 1;
-    for (column = -FILTER_RADIUS; column < p->width + FILTER_RADIUS; column++) {
+    for (column = -p->radius; column < p->width + p->radius; column++) {
         const ptrdiff_t at = (ptrdiff_t)row * p->stride + column;
         const int inside = row >= 0 && row < p->height && column >= 0 && column < p->width;
         const guide *g = inside ? &guides[(ptrdiff_t)row * p->width + column] : &outside;
@@ -196,7 +196,7 @@ void filter_fill_planes(const planes *p, const guide *guides, filter_method m, c
     const float depth_scale = bilateral_scale(depth_variance);
     int row;
     PARALLEL_FOR
-    for (row = -FILTER_RADIUS; row < p->height + FILTER_RADIUS; row++)
+    for (row = -p->radius; row < p->height + p->radius; row++)
         filter_fill_row(p, guides, m, parameter, depth_scale, row);
 }
 
@@ -315,11 +315,11 @@ void filter_row(const planes *p, filter_method m, const float *parameter, int ro
         t.i = (ptrdiff_t)row * p->stride + first;
         t.count = p->width - first < BLOCK ? p->width - first : BLOCK;
         memset(sum, 0, sizeof sum);
-        for (y = -FILTER_RADIUS; y <= FILTER_RADIUS && m != FILTER_UNFILTERED; y++) {
-            for (x = -FILTER_RADIUS; x <= FILTER_RADIUS; x++) {
+        for (y = -p->radius; y <= p->radius && m != FILTER_UNFILTERED; y++) {
+            for (x = -p->radius; x <= p->radius; x++) {
                 t.j = t.i + (ptrdiff_t)y * p->stride + x;
                 t.squared = (float)(x * x + y * y);
-                t.exponent = -0.5f * LOBE_LOG2E / filter_kernel_variance * t.squared;
+                t.exponent = -0.5f * LOBE_LOG2E / filter_kernel_variance(p->radius) * t.squared;
                 weigh(p, &t, m, parameter, weight);
                 gather(p, &t, weight, sum[0], sum[1], sum[2], sum[3]);
             }

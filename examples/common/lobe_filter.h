@@ -6,9 +6,18 @@
 #include "glossy.h"
 #include "image.h"
 
-/* Of all filters: weights of distance in the image are the same, and those of depth in the scenes. */
-enum { FILTER_RADIUS = 8, FILTER_TAPS = (2 * FILTER_RADIUS + 1) * (2 * FILTER_RADIUS + 1) };
-static const float filter_kernel_variance = 16, filter_depth_variance = 0.1f;
+/* Of all filters: weights of distance in the image are the same, of a variance by their radius (default: 8), and those of
+   depth in the scenes. */
+enum { FILTER_RADIUS = 8 };
+static const float filter_depth_variance = 0.1f;
+
+static inline int filter_taps(int radius) {
+    return (2 * radius + 1) * (2 * radius + 1);
+}
+
+static inline float filter_kernel_variance(int radius) {
+    return 0.25f * (float)(radius * radius);
+}
 
 /* What filters know of a pixel */
 typedef struct {
@@ -36,14 +45,14 @@ typedef enum {
 /* Guides and colours as planes with a border, so that the loops over them become vector code. Guides of one method at a
    time; parts: the most lobes of a pixel. */
 typedef struct filter_planes filter_planes;
-filter_planes *filter_planes_create(int width, int height, int parts);
+filter_planes *filter_planes_create(int width, int height, int radius, int parts);
 void filter_planes_free(filter_planes *p);
 
 int filter_most_parts(const guide *guides, int count);
 
 void filter_fill_colours(filter_planes *p, const image *noisy);
 
-/* All rows, by all threads, or one: those from -FILTER_RADIUS to FILTER_RADIUS below the picture are needed. */
+/* All rows, by all threads, or one: those from the radius above the picture to the radius below it are needed. */
 void filter_fill_planes(const filter_planes *p, const guide *guides, filter_method m, const float *parameter,
                         float depth_variance);
 void filter_fill_row(const filter_planes *p, const guide *guides, filter_method m, const float *parameter,

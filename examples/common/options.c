@@ -6,6 +6,7 @@
 
 static void print_default(const option *o) {
     const option_list *list = (const option_list *)o->value;
+    const option_reals *reals = (const option_reals *)o->value;
     const option_size *size = (const option_size *)o->value;
     int i;
     switch (o->kind) {
@@ -23,6 +24,10 @@ static void print_default(const option *o) {
         break;
     case OPTION_LIST:
         for (i = 0; i < list->count; i++) printf("%s%d", i ? "," : "(default ", list->value[i]);
+        printf(")");
+        break;
+    case OPTION_REALS:
+        for (i = 0; i < reals->count; i++) printf("%s%g", i ? "," : "(default ", (double)reals->value[i]);
         printf(")");
         break;
     case OPTION_CHOICE:
@@ -50,6 +55,7 @@ static void print_range(const option *o) {
         printf(", each %.10g to %.10g", o->low, o->high);
         break;
     case OPTION_LIST:
+    case OPTION_REALS:
         printf(", up to %d of them, %.10g to %.10g ", OPTIONS_MAX_LIST, o->low, o->high);
         break;
     case OPTION_CHOICE:
@@ -119,6 +125,16 @@ static int read_list(const option *o, const char *text) {
     }
 }
 
+static int read_reals(const option *o, const char *text) {
+    option_reals *list = (option_reals *)o->value;
+    list->count = 0;
+    for (;; text++) {
+        if (list->count == OPTIONS_MAX_LIST || !real(o, &text, &list->value[list->count++])) return 0;
+        if (!*text) return 1;
+        if (*text != ',') return 0;
+    }
+}
+
 static int read_choice(const option *o, const char *text) {
     int i;
     for (i = 0; o->choices[i]; i++) {
@@ -140,6 +156,8 @@ static int read_value(const option *o, const char *text) {
         return read_size(o, text);
     case OPTION_LIST:
         return read_list(o, text);
+    case OPTION_REALS:
+        return read_reals(o, text);
     case OPTION_CHOICE:
         return read_choice(o, text);
     case OPTION_PLACE:

@@ -8,6 +8,7 @@ typedef enum {
     OPTION_TEXT,
     OPTION_SIZE,
     OPTION_LIST,
+    OPTION_REALS,
     OPTION_CHOICE,
     OPTION_PLACE
 } option_kind;
@@ -23,6 +24,11 @@ typedef struct {
 } option_list;
 
 typedef struct {
+    int count;
+    float value[OPTIONS_MAX_LIST];
+} option_reals;
+
+typedef struct {
     int given;
     float x, y, z;
 } option_place;
@@ -35,6 +41,7 @@ typedef struct {
    TEXT     const char **     anything but empty; there is no default where it points to null
    SIZE     option_size *     WxH, both low to high
    LIST     option_list *     whole numbers, each low to high, with commas between
+   REALS    option_reals *    numbers, each low to high, with commas between
    CHOICE   int *             the index of one of `choices`, which null closes
    PLACE    option_place *    X,Y,Z, each low to high; there is no default where it is not given */
 typedef struct {

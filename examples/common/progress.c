@@ -21,8 +21,44 @@ static int ascending(const void *a, const void *b) {
 }
 
 double progress_median(double *values, int count) {
+    return progress_quartiles(values, count).median;
+}
+
+/* Of sorted values, between two of them by the share of the way */
+static double quantile(const double *values, int count, double share) {
+    const double at = share * (count - 1);
+    const int i = (int)at, next = i + 1 < count ? i + 1 : i;
+    return values[i] + (at - i) * (values[next] - values[i]);
+}
+
+quartiles progress_quartiles(double *values, int count) {
+    quartiles s;
     qsort(values, (size_t)count, sizeof *values, ascending);
-    return values[count / 2];
+    s.median = quantile(values, count, 0.5);
+    s.low = quantile(values, count, 0.25);
+    s.high = quantile(values, count, 0.75);
+    return s;
+}
+
+quartiles quartiles_scaled(quartiles s, double factor) {
+    s.median *= factor;
+    s.low *= factor;
+    s.high *= factor;
+    return s;
+}
+
+void timing_add(timing *t, double ms) {
+    t->ms[t->count++] = ms;
+    t->sum += ms;
+}
+
+int timing_goes_on(const timing *t, int least, int most, double limit) {
+    return t->count < least || (t->count < most && t->sum * (t->count + 1) < limit * t->count);
+}
+
+quartiles timing_quartiles(const timing *t) {
+    timing sorted = *t;
+    return progress_quartiles(sorted.ms, sorted.count);
 }
 
 progress progress_begin(const char *label, int total) {

@@ -283,18 +283,15 @@ BENCH_DECLARE(cardano_asg_double);
     {                                                                                                                  \
         BENCH_FORM("asg_sg_integral", our_asg_sg_integral), BENCH_FORM("asg_sg_integral_xu", our_asg_sg_integral_xu),  \
             BENCH_FORM("sg_product_integral of asg_isotropic", our_asg_as_sg),                                         \
-            BENCH_FORM("Xu, as printed, libm", printed_asg_sg_integral), {                                             \
-            0, 0, 0                                                                                                    \
-        }                                                                                                              \
+            BENCH_FORM("Xu, as printed, libm", printed_asg_sg_integral)                                                \
     }
 #define PAIR_FORMS                                                                                                     \
     {                                                                                                                  \
         BENCH_FORM("asg_product_integral", our_asg_product_integral),                                                  \
             BENCH_FORM("asg_product_integral_xu", our_asg_product_integral_xu),                                        \
             BENCH_FORM("Cardano, float, polynomials", cardano_asg_float),                                              \
-            BENCH_FORM("Cardano, float, libm", cardano_asg_libm),                                                      \
-            BENCH_FORM("Cardano, double, libm", cardano_asg_double), {                                                 \
-            0, 0, 0                                                                                                    \
+            BENCH_FORM("Cardano, float, libm", cardano_asg_libm), {                                                    \
+            "Cardano, double, libm", "cardano_asg_double", cardano_asg_double_scalar, cardano_asg_double_vector, 0     \
         }                                                                                                              \
     }
 
@@ -306,7 +303,7 @@ const bench_row asg_bench[] = {
      draw_lobe,
      exact_value,
      relative,
-     {BENCH_FORM("asg_eval", our_asg_eval), BENCH_FORM("as printed, libm", printed_asg_eval), {0, 0, 0}}},
+     {BENCH_FORM("asg_eval", our_asg_eval), BENCH_FORM("as printed, libm", printed_asg_eval)}},
     {"asg_integral",
      "sharpness 1e-2 .. 1e5",
      "relative",
@@ -314,10 +311,11 @@ const bench_row asg_bench[] = {
      draw_lobe,
      exact_whole,
      relative,
-     {BENCH_FORM("asg_integral", our_asg_integral),
-      BENCH_FORM("asg_integral_approx", our_asg_integral_approx),
-      BENCH_FORM("as printed, libm", printed_asg_integral),
-      {0, 0, 0}}},
+     {
+         BENCH_FORM("asg_integral", our_asg_integral),
+         BENCH_FORM("asg_integral_approx", our_asg_integral_approx),
+         BENCH_FORM("as printed, libm", printed_asg_integral),
+     }},
     {"asg_sg_integral", "sharpness .1 .. 1e3, values above 1 % of aligned", "relative", 1, draw_soft_light, exact_light,
      relative, LIGHT_FORMS},
     {"asg_sg_integral", "sharpness 10 .. 1e5, values above 1 % of aligned", "relative", 1, draw_sharp_light,
@@ -329,7 +327,7 @@ const bench_row asg_bench[] = {
      draw_lobe,
      exact_mean,
      relative,
-     {BENCH_FORM("asg_isotropic", our_asg_isotropic), {0, 0, 0}}},
+     {BENCH_FORM("asg_isotropic", our_asg_isotropic)}},
     {"asg_sg_form",
      "sharpness 1e-2 .. 1e5",
      "nothing, a choice",
@@ -337,7 +335,7 @@ const bench_row asg_bench[] = {
      draw_lobe,
      exact_nothing,
      no_error,
-     {BENCH_FORM("asg_sg_form", our_asg_sg_form), {0, 0, 0}}},
+     {BENCH_FORM("asg_sg_form", our_asg_sg_form)}},
     {"asg_product_integral", "sharpness .1 .. 1e3, any angle", "the mean of both with themselves", 1, draw_soft_pair,
      exact_pair, relative, PAIR_FORMS},
     {"asg_product_integral", "sharpness 1e3 .. 1e6, any angle", "the mean of both with themselves", 1, draw_sharp_pair,
@@ -349,7 +347,7 @@ const bench_row asg_bench[] = {
      draw_lobe,
      exact_convolved,
      convolved_error,
-     {BENCH_FORM("asg_convolve", our_asg_convolve), BENCH_FORM("as printed, libm", printed_asg_convolve), {0, 0, 0}}},
+     {BENCH_FORM("asg_convolve", our_asg_convolve), BENCH_FORM("as printed, libm", printed_asg_convolve)}},
     {"asg_ggx_lobe",
      "alpha .02 .. .5, cos .1 .. 1",
      "axis, and relative",
@@ -357,7 +355,7 @@ const bench_row asg_bench[] = {
      draw_surface,
      exact_ggx,
      lobe_error,
-     {BENCH_FORM("asg_ggx_lobe", our_asg_ggx_lobe), BENCH_FORM("as printed, libm", printed_asg_ggx_lobe), {0, 0, 0}}},
+     {BENCH_FORM("asg_ggx_lobe", our_asg_ggx_lobe), BENCH_FORM("as printed, libm", printed_asg_ggx_lobe)}},
     {"asg_ggx_lobe_aniso",
      "alphas .02 .. .5, cos .1 .. 1",
      "axis, and relative",
@@ -365,7 +363,7 @@ const bench_row asg_bench[] = {
      draw_surface,
      exact_ggx_aniso,
      lobe_error,
-     {BENCH_FORM("asg_ggx_lobe_aniso", our_asg_ggx_lobe_aniso), {0, 0, 0}}},
+     {BENCH_FORM("asg_ggx_lobe_aniso", our_asg_ggx_lobe_aniso)}},
     {"asg_phong_lobe",
      "exponent 10 .. 1e5, cos .1 .. 1",
      "axis, and relative",
@@ -373,7 +371,7 @@ const bench_row asg_bench[] = {
      draw_exponents,
      exact_phong,
      lobe_error,
-     {BENCH_FORM("asg_phong_lobe", our_asg_phong_lobe), {0, 0, 0}}},
+     {BENCH_FORM("asg_phong_lobe", our_asg_phong_lobe)}},
     {"asg_ashikhmin_lobe",
      "exponents 10 .. 1e5, cos .1 .. 1",
      "axis, and relative",
@@ -381,7 +379,7 @@ const bench_row asg_bench[] = {
      draw_exponents,
      exact_ashikhmin,
      lobe_error,
-     {BENCH_FORM("asg_ashikhmin_lobe", our_asg_ashikhmin_lobe), {0, 0, 0}}},
+     {BENCH_FORM("asg_ashikhmin_lobe", our_asg_ashikhmin_lobe)}},
     {"asg_vsgl_specular",
      "with asg_ggx_lobe, lights within alpha of the mirror direction",
      "relative to the formula",
@@ -389,8 +387,9 @@ const bench_row asg_bench[] = {
      draw_surface,
      exact_specular,
      relative,
-     {BENCH_FORM("asg_vsgl_specular", our_asg_vsgl_specular),
-      BENCH_FORM("as printed, libm", printed_asg_vsgl_specular),
-      {0, 0, 0}}},
+     {
+         BENCH_FORM("asg_vsgl_specular", our_asg_vsgl_specular),
+         BENCH_FORM("as printed, libm", printed_asg_vsgl_specular),
+     }},
     {0},
 };

@@ -9,9 +9,10 @@
 #ifndef BENCH_H
 #define BENCH_H
 
+#include "../../examples/common/progress.h"
 #include "../test.h"
 
-enum { BENCH_COUNT = 4096, BENCH_INPUTS = 24, BENCH_OUTPUTS = 8, BENCH_FORMS = 12, BENCH_RUNS = 2 * BENCH_FORMS + 1 };
+enum { BENCH_COUNT = 4096, BENCH_INPUTS = 24, BENCH_OUTPUTS = 8, BENCH_FORMS = 12, BENCH_RUNS = 40 };
 
 /* Column by column; what a column holds is the row's own matter. */
 typedef struct {
@@ -26,7 +27,8 @@ typedef void bench_loop(const bench_input *restrict in, bench_output *restrict o
 
 typedef struct {
     const char *name;
-    bench_loop *scalar, *vector;
+    const char *loop; /* what is ours begins with our_ */
+    bench_loop *scalar, *vector, *counted;
 } bench_form;
 
 typedef struct {
@@ -51,22 +53,51 @@ void fis_flicker_bench(void);
 void fis_build_bench(void);
 void bilateral_filter_bench(void);
 void bilateral_figure4(void);
+void limits_bench(void);
+void hard_cases_bench(void);
+extern int hard_cases_failed;
 
-/* Median seconds of run(0) to run(count - 1), interleaved; count is at most BENCH_RUNS. */
-void bench_medians(void (*run)(int which), int count, double *medians);
+/* Seconds of run(0) to run(count - 1), interleaved; count is at most BENCH_RUNS. */
+void bench_times(void (*run)(int which), int count, quartiles *seconds);
 
-#define BENCH_DECLARE(name) bench_loop name##_scalar, name##_vector
+/* Half the distance between the quartiles, in percent of the median */
+double bench_spread(quartiles seconds);
+
+/* Inputs of a row for each element */
+void bench_draw(const bench_row *row, bench_input *inputs);
+
+/* The first fields of a row of functions.csv */
+void bench_function_row(const char *header, const char *function, const char *form, int ours, const char *inputs,
+                        const char *unit);
+
+/* Fewer repetitions and batches */
+extern int bench_quick;
+
+/* The third counts its floating-point operations, where a C++ compiler is there to make it do so (counted.h). */
+#ifdef BENCH_HAS_COUNTED
+#define BENCH_COUNTED(name) name##_counted
+#else
+#define BENCH_COUNTED(name) 0
+#endif
+#define BENCH_DECLARE(name) bench_loop name##_scalar, name##_vector, name##_counted
 #define BENCH_FORM(text, name)                                                                                         \
-    { text, name##_scalar, name##_vector }
+    { text, #name, name##_scalar, name##_vector, BENCH_COUNTED(name) }
 
 /* In files of loops: defines the loop whose body sets out for the i-th element of in. */
-#ifdef BENCH_SCALAR
+#if defined(__cplusplus)
+#define BENCH_NAME(name) name##_counted
+#elif defined(BENCH_SCALAR)
 #define BENCH_NAME(name) name##_scalar
 #else
 #define BENCH_NAME(name) name##_vector
 #endif
+#ifdef __cplusplus
+#define BENCH_FUNCTION(name) extern "C" void BENCH_NAME(name)
+#else
+#define BENCH_FUNCTION(name) void BENCH_NAME(name)
+#endif
 #define BENCH_LOOP(name, ...)                                                                                          \
-    void BENCH_NAME(name)(const bench_input *restrict in, bench_output *restrict out) {                                \
+    BENCH_FUNCTION(name)(const bench_input *restrict in, bench_output *restrict out) {                                 \
         int i;                                                                                                         \
         for (i = 0; i < BENCH_COUNT; i++) {                                                                            \
             __VA_ARGS__                                                                                                \

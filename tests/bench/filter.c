@@ -5,12 +5,15 @@
  Errors are those of the filtered colour against the same sums in double, largest over some pixels.
 */
 #include "filter.h"
+#include "tables.h"
 #include "../exact_asg.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { FORMS = 12, CHECKED = 6 };
+
+#define INPUTS "17 x 17 taps of kernel, depth and lobe, three channels; beta %d"
 
 FILTER_DECLARE(our_eq4);
 FILTER_DECLARE(our_eq12_even);
@@ -30,13 +33,13 @@ FILTER_DECLARE(printed_eq11);
 enum { EQ4_OPERATIONS = 28 };
 
 typedef struct {
-    const char *name;
-    filter_loop *scalar, *vector;
+    const char *name, *loop;
+    filter_loop *scalar, *vector, *counted;
     int equation, both;
 } filter_form;
 
 #define FORM(text, name, equation, both)                                                                               \
-    { text, name##_scalar, name##_vector, equation, both }
+    { text, #name, name##_scalar, name##_vector, BENCH_COUNTED(name), equation, both }
 
 static const filter_form forms[FORMS] = {
     FORM("Eq. 4", our_eq4, 4, 0),
@@ -181,14 +184,13 @@ static int checked_pixel(int k) {
            k * (FILTER_ROW - 2 * FILTER_RADIUS) / CHECKED;
 }
 
-/* Three channels and the weights of a pixel, over all taps or, with both, over all but its own */
-static void exact_sums(int equation, int i, int own, double out[4]) {
+/* Three channels and the weights of a pixel, over all taps */
+static void exact_sums(int equation, int i, double out[4]) {
     int t, c;
     for (c = 0; c < 4; c++) out[c] = 0;
     for (t = 0; t < FILTER_TAPS; t++) {
         const int j = i + kernel.offset[t];
         double d = (double)image.plane[PLANE_RAW_DEPTH][i] - (double)image.plane[PLANE_RAW_DEPTH][j], w;
-        if (i == j && !own) continue;
         w = exp2((double)kernel.exponent[t]) * exp(-d * d / (2 * (double)FILTER_DEPTH_VARIANCE)) *
             exact_lobe_weight(equation, i, j);
         for (c = 0; c < 3; c++) out[c] += w * (double)image.plane[PLANE_COLOUR + c][j];
@@ -197,8 +199,8 @@ static void exact_sums(int equation, int i, int own, double out[4]) {
 }
 
 static double error_of(const filter_form *form) {
-    static double wanted[14][2][CHECKED][4];
-    static int known[14][2];
+    static double wanted[14][CHECKED][4];
+    static int known[14];
     double worst = 0;
     int y, k, c, count = form->equation == 13 ? 2 : CHECKED;
     memset(&sums, 0, sizeof sums);
@@ -206,57 +208,96 @@ static double error_of(const filter_form *form) {
         form->vector(&image, &kernel, y * FILTER_WIDTH + FILTER_RADIUS, FILTER_BETA, &sums);
     }
     for (k = 0; k < count; k++) {
-        double *exact = wanted[form->equation][form->both][k];
+        double exact[4];
         const int i = checked_pixel(k);
-        if (!known[form->equation][form->both]) exact_sums(form->equation, i, !form->both, exact);
+        if (!known[form->equation]) exact_sums(form->equation, i, wanted[form->equation][k]);
+        for (c = 0; c < 4; c++) { /* pairs leave out the pixel itself, whose weight is 1 */
+            exact[c] = wanted[form->equation][k][c];
+            if (form->both) exact[c] -= c < 3 ? (double)image.plane[PLANE_COLOUR + c][i] : 1;
+        }
         for (c = 0; c < 3; c++) {
             double got = (double)sums.sum[c][i] / (double)sums.sum[3][i];
             worst = fmax(worst, fabs(got - exact[c] / exact[3]));
         }
         worst = fmax(worst, fabs((double)sums.sum[3][i] / exact[3] - 1));
     }
-    known[form->equation][form->both] = 1;
+    known[form->equation] = 1;
     return worst;
 }
 
 /* ---- times ---- */
 
-/* Form f scalar is 2 f, vector 2 f + 1, as loops over the rows; then the peak of multiply-adds. */
+static void run_row(filter_loop *run) {
+    run(&image, &kernel, FILTER_RADIUS * FILTER_WIDTH + FILTER_RADIUS, FILTER_BETA, &sums);
+}
+
+/* Form f scalar is 2 f, vector 2 f + 1, on one row; then the peak of multiply-adds. */
 static void run_form(int which) {
     static float values[FILTER_PEAK_LANES];
-    int y;
-    if (which == 2 * FORMS) {
+    if (which == 2 * FORMS)
         filter_peak_vector(values);
-        return;
-    }
-    for (y = FILTER_RADIUS; y < FILTER_RADIUS + FILTER_ROWS; y++) {
-        filter_loop *run = which % 2 ? forms[which / 2].vector : forms[which / 2].scalar;
-        run(&image, &kernel, y * FILTER_WIDTH + FILTER_RADIUS, FILTER_BETA, &sums);
-    }
+    else
+        run_row(which % 2 ? forms[which / 2].vector : forms[which / 2].scalar);
+}
+
+/* Of run_row: a weight for two pixels is two taps */
+static double taps_of(const filter_form *form) {
+    return (form->both ? 2 * (FILTER_TAPS / 2) : FILTER_TAPS) * FILTER_ROW;
 }
 
 void bilateral_filter_bench(void) {
-    double times[2 * FORMS + 1], bound;
+    quartiles times[2 * FORMS + 1];
+    double bound, eq4 = 0;
     int f;
     draw_image();
     memset(&sums, 0, sizeof sums);
-    bench_medians(run_form, 2 * FORMS + 1, times);
+    bench_times(run_form, 2 * FORMS + 1, times);
+    printf("bilateral_filter: " INPUTS "; errors of colours, and of weights relative\n", FILTER_BETA);
+    printf("  %-34s %9s %9s %5s %7s %10s\n", "ns for each tap", "scalar", "vector", "+-%", "/ Eq. 4", "max error");
     for (f = 0; f < FORMS; f++) {
-        const int taps = forms[f].both ? 2 * (FILTER_TAPS / 2) : FILTER_TAPS; /* a weight for two pixels is two taps */
-        times[2 * f] *= 1e9 / (taps * FILTER_ROW * FILTER_ROWS);
-        times[2 * f + 1] *= 1e9 / (taps * FILTER_ROW * FILTER_ROWS);
+        const double scale = 1e9 / taps_of(&forms[f]), error = error_of(&forms[f]);
+        const quartiles scalar = times[2 * f], vector = times[2 * f + 1];
+        char inputs[128];
+        if (f == 0) eq4 = vector.median * scale;
+        printf("  %-34s %9.3f %9.3f %5.1f %7.2f %10.3g\n", forms[f].name, scalar.median * scale, vector.median * scale,
+               bench_spread(vector), vector.median * scale / eq4, error);
+        snprintf(inputs, sizeof inputs, INPUTS, FILTER_BETA);
+        bench_function_row("bilateral.h", "bilateral_filter", forms[f].name, strncmp(forms[f].loop, "printed", 7) != 0,
+                           inputs, "1 of colours, weights relative");
+        csv_error(&bench_table[TABLE_FUNCTIONS], error);
+        csv_skip(&bench_table[TABLE_FUNCTIONS], 1);
+        csv_quartiles(&bench_table[TABLE_FUNCTIONS], quartiles_scaled(scalar, scale));
+        csv_quartiles(&bench_table[TABLE_FUNCTIONS], quartiles_scaled(vector, scale));
+        csv_row(&bench_table[TABLE_FUNCTIONS]);
     }
-    bound = EQ4_OPERATIONS * times[2 * FORMS] * 1e9 / (FILTER_PEAK_STEPS * FILTER_PEAK_LANES);
-    printf("bilateral_filter: 17 x 17 taps of kernel, depth and lobe, three channels; beta %d; errors of colours, and "
-           "of weights relative\n",
-           FILTER_BETA);
-    printf("  %-34s %9s %9s %7s %10s\n", "ns for each tap", "scalar", "vector", "/ Eq. 4", "max error");
-    for (f = 0; f < FORMS; f++) {
-        printf("  %-34s %9.3f %9.3f %7.2f %10.3g\n", forms[f].name, times[2 * f], times[2 * f + 1],
-               times[2 * f + 1] / times[1], error_of(&forms[f]));
-    }
+    bound = EQ4_OPERATIONS * times[2 * FORMS].median * 1e9 / FILTER_PEAK_OPERATIONS;
     printf("  Eq. 4's bound, %d operations at the measured peak of multiply-adds: %.3f ns; it reaches %.0f %%\n\n",
-           EQ4_OPERATIONS, bound, 100 * bound / times[1]);
+           EQ4_OPERATIONS, bound, 100 * bound / eq4);
+}
+
+/* ---- for limits.c ---- */
+
+int filter_prepare(void) {
+    int f = 0;
+    draw_image();
+    memset(&sums, 0, sizeof sums);
+    while (f < FORMS && strncmp(forms[f].loop, "printed", 7)) f++;
+    return f;
+}
+
+const char *filter_name(int form) {
+    return forms[form].name;
+}
+
+double filter_run(int form) {
+    run_row(forms[form].vector);
+    return taps_of(&forms[form]);
+}
+
+double filter_count(int form) {
+    if (!forms[form].counted) return 0;
+    run_row(forms[form].counted);
+    return taps_of(&forms[form]);
 }
 
 /* ---- Fig. 4 of 004 ---- */

@@ -57,11 +57,24 @@ typedef struct {
 typedef void filter_loop(const filter_image *restrict in, const filter_kernel *restrict kernel, int i, float beta,
                          filter_sums *restrict out);
 
-#define FILTER_DECLARE(name) filter_loop name##_scalar, name##_vector
+#define FILTER_DECLARE(name) filter_loop name##_scalar, name##_vector, name##_counted
 
-/* Nothing but independent multiply-adds: runs 2^20 of them on each of 96 lanes' worth of registers. */
+/* For limits.c. filter_prepare returns how many forms there are that are ours; filter_run runs one of them as vector code,
+   filter_count so that it counts its operations, where it can: both return how many taps that were. */
+int filter_prepare(void);
+const char *filter_name(int form);
+double filter_run(int form);
+double filter_count(int form);
+
+/* Nothing but independent multiply-adds, or divisions: FILTER_PEAK_STEPS of them on each of the lanes, which are as many as
+   registers hold. */
 typedef void filter_peak_loop(float *values);
-filter_peak_loop filter_peak_scalar, filter_peak_vector;
-enum { FILTER_PEAK_LANES = 96, FILTER_PEAK_STEPS = 20000 };
+filter_peak_loop filter_peak_scalar, filter_peak_vector, division_peak_scalar, division_peak_vector;
+#ifdef __AVX512F__
+enum { FILTER_PEAK_LANES = 192 };
+#else
+enum { FILTER_PEAK_LANES = 96 };
+#endif
+enum { FILTER_PEAK_STEPS = 20000, FILTER_PEAK_OPERATIONS = FILTER_PEAK_STEPS * FILTER_PEAK_LANES };
 
 #endif

@@ -26,8 +26,9 @@
             out->sum[3][i] += w;                                                                                       \
         }                                                                                                              \
     }                                                                                                                  \
-    void BENCH_NAME(name)(const filter_image *restrict in, const filter_kernel *restrict kernel, int first,            \
-                          float beta, filter_sums *restrict out) {                                                     \
+    BENCH_FUNCTION(name)                                                                                               \
+    (const filter_image *restrict in, const filter_kernel *restrict kernel, int first, float beta,                     \
+     filter_sums *restrict out) {                                                                                      \
         int t;                                                                                                         \
         for (t = 0; t < FILTER_TAPS; t++) {                                                                            \
             name(in, kernel->exponent[t], kernel->factor[t], first, kernel->offset[t], beta, out);                     \
@@ -96,8 +97,9 @@ static inline void filter_rows(const filter_image *restrict in, const filter_ker
 }
 
 #define ROW_FILTER(name, weigh, plane, planes, both)                                                                   \
-    void BENCH_NAME(name)(const filter_image *restrict in, const filter_kernel *restrict kernel, int first,            \
-                          float beta, filter_sums *restrict out) {                                                     \
+    BENCH_FUNCTION(name)                                                                                               \
+    (const filter_image *restrict in, const filter_kernel *restrict kernel, int first, float beta,                     \
+     filter_sums *restrict out) {                                                                                      \
         filter_rows(in, kernel, first, beta, out, weigh, plane, planes, both);                                         \
     }
 
@@ -155,14 +157,18 @@ FILTER_LOOP(printed_eq11, {
              beta);
 })
 
-/* ---- the bound ---- */
+/* ---- the machine's peaks ---- */
 
-void BENCH_NAME(filter_peak)(float *values) {
-    float v[FILTER_PEAK_LANES];
-    int i, step;
-    for (i = 0; i < FILTER_PEAK_LANES; i++) v[i] = values[i];
-    for (step = 0; step < FILTER_PEAK_STEPS; step++) {
-        for (i = 0; i < FILTER_PEAK_LANES; i++) v[i] = v[i] * 0.999f + 0.001f;
+#define PEAK_LOOP(name, next)                                                                                          \
+    BENCH_FUNCTION(name)(float *values) {                                                                              \
+        float v[FILTER_PEAK_LANES];                                                                                    \
+        int i, step;                                                                                                   \
+        for (i = 0; i < FILTER_PEAK_LANES; i++) v[i] = values[i];                                                      \
+        for (step = 0; step < FILTER_PEAK_STEPS; step++) {                                                             \
+            for (i = 0; i < FILTER_PEAK_LANES; i++) v[i] = next;                                                       \
+        }                                                                                                              \
+        for (i = 0; i < FILTER_PEAK_LANES; i++) values[i] = v[i];                                                      \
     }
-    for (i = 0; i < FILTER_PEAK_LANES; i++) values[i] = v[i];
-}
+
+PEAK_LOOP(filter_peak, v[i] * 0.999f + 0.001f)
+PEAK_LOOP(division_peak, 1.5f / (v[i] + 1))

@@ -1,18 +1,11 @@
 /* fis.c - the tables of fis.h: kernels by each method, and pyramids beside a loop that only moves as many bytes. */
-#include "bench.h"
+#include "tables.h"
+#include "fis_build.h"
 #include "fis_quality.h"
+#include "../../examples/common/fail.h"
 #include "../../fis.h"
 #include <stdio.h>
 #include <stdlib.h>
-
-static void *allocate(size_t size) {
-    void *memory = malloc(size);
-    if (!memory) {
-        fprintf(stderr, "bench: out of memory\n");
-        exit(1);
-    }
-    return memory;
-}
 
 /* ---- kernels ---- */
 
@@ -21,6 +14,8 @@ static fis_split_table table;
 static fis_sample samples[FIS_KERNELS];
 static volatile float levels[FIS_KERNELS]; /* written as if read */
 static fis_cell cells[FIS_KERNELS];
+
+enum { OURS = 3, SPLIT = 4 };
 
 /* Five methods in fis_quality's order; then the samples, which all but the split need */
 static void run_method(int method) {
@@ -48,28 +43,43 @@ static void run_method(int method) {
 
 void fis_level_bench(void) {
     const char *name;
-    float *image, *memory = (float *)allocate(fis_pyramid_size(FIS_SIDE, FIS_SIDE, 1) * sizeof *memory);
-    double *sums = (double *)allocate(fis_split_size(FIS_SIDE, FIS_SIDE) * sizeof *sums);
+    float *image, *memory = (float *)allocate("a pyramid", fis_pyramid_size(FIS_SIDE, FIS_SIDE, 1), sizeof *memory);
+    double *sums = (double *)allocate("sums", fis_split_size(FIS_SIDE, FIS_SIDE), sizeof *sums);
     int kind, i;
     for (kind = 0; (image = fis_quality_image(kind, &name)); kind++) {
         fis_quality row[FIS_METHODS];
-        double seconds[FIS_METHODS + 1];
+        quartiles seconds[FIS_METHODS + 1];
+        const double scale = 1e9 / FIS_KERNELS;
         fis_quality_of(kind, row);
         pdf = fis_build_pdf(memory, image, FIS_SIDE, FIS_SIDE);
         table = fis_split_build(sums, image, FIS_SIDE, FIS_SIDE);
         run_method(FIS_METHODS);
-        bench_medians(run_method, FIS_METHODS + 1, seconds);
+        bench_times(run_method, FIS_METHODS + 1, seconds);
         printf("fis_level: %s, %d by %d, %d kernels; a sample takes %.1f ns\n", name, FIS_SIDE, FIS_SIDE, FIS_KERNELS,
-               seconds[FIS_METHODS] * 1e9 / FIS_KERNELS);
-        printf("  %-18s %8s %7s %7s %9s %9s %6s %9s %9s %7s\n", "", "ns", "/ ours", "texels", "level RMS", "max",
-               "gap %", "overlap %", "brightest", "total");
+               seconds[FIS_METHODS].median * scale);
+        printf("  %-18s %8s %5s %7s %7s %9s %9s %6s %9s %9s %7s\n", "", "ns", "+-%", "/ ours", "texels", "level RMS",
+               "max", "gap %", "overlap %", "brightest", "total");
         for (i = 0; i < FIS_METHODS; i++) {
-            printf("  %-18s %8.1f %7.2f %7.2f", row[i].method, seconds[i] * 1e9 / FIS_KERNELS, seconds[i] / seconds[3],
-                   row[i].reads);
-            if (row[i].rms < 0)
+            csv_text(&bench_table[TABLE_FIS], name);
+            csv_text(&bench_table[TABLE_FIS], row[i].method);
+            csv_number(&bench_table[TABLE_FIS], i == OURS || i == SPLIT);
+            csv_quartiles(&bench_table[TABLE_FIS], quartiles_scaled(seconds[i], scale));
+            csv_number(&bench_table[TABLE_FIS], row[i].reads);
+            printf("  %-18s %8.1f %5.1f %7.2f %7.2f", row[i].method, seconds[i].median * scale,
+                   bench_spread(seconds[i]), seconds[i].median / seconds[OURS].median, row[i].reads);
+            if (row[i].rms < 0) {
                 printf(" %9s %9s", "-", "-");
-            else
+                csv_skip(&bench_table[TABLE_FIS], 2);
+            } else {
                 printf(" %9.2g %9.2g", row[i].rms, row[i].largest);
+                csv_error(&bench_table[TABLE_FIS], row[i].rms);
+                csv_error(&bench_table[TABLE_FIS], row[i].largest);
+            }
+            csv_error(&bench_table[TABLE_FIS], row[i].gap);
+            csv_error(&bench_table[TABLE_FIS], row[i].overlap);
+            csv_error(&bench_table[TABLE_FIS], row[i].firefly);
+            csv_error(&bench_table[TABLE_FIS], row[i].total);
+            csv_row(&bench_table[TABLE_FIS]);
             printf(" %6.1f %9.1f %9.2f %7.4f\n", 100 * row[i].gap, 100 * row[i].overlap, row[i].firefly, row[i].total);
         }
         printf("\n");
@@ -126,32 +136,65 @@ static void run_build(int which) {
         fis_build_pdf(built.memory, built.image, built.width, built.height);
 }
 
+static void *pixels[2];
+
+static void build_begin(int width, int height, int channels) {
+    size_t i, count = fis_pyramid_size(width, height, channels);
+    built.width = width;
+    built.height = height;
+    built.channels = channels;
+    pixels[0] = allocate("an image", count * sizeof(float) + 64, 1);
+    pixels[1] = allocate("a pyramid", count * sizeof(float) + 64, 1);
+    built.image = aligned(pixels[0]);
+    built.memory = aligned(pixels[1]);
+    for (i = 0; i < count; i++) built.image[i] = (float)test_uniform(&test_random);
+}
+
+static void build_end(void) {
+    free(pixels[1]);
+    free(pixels[0]);
+}
+
 void fis_build_bench(void) {
     static const int sizes[][3] = {{512, 512, 1}, {512, 512, 16}, {1920, 1088, 1}, {1920, 1088, 16}};
     static const char *const names[] = {"its bytes moved", "fis_build", "fis_build_pdf"};
-    size_t size, i, count;
+    size_t size;
     for (size = 0; size < sizeof sizes / sizeof *sizes; size++) {
-        double seconds[3];
-        void *memory[2];
-        int forms, form;
-        built.width = sizes[size][0];
-        built.height = sizes[size][1];
-        built.channels = sizes[size][2];
-        forms = built.channels == 1 ? 3 : 2;
-        count = fis_pyramid_size(built.width, built.height, built.channels);
-        memory[0] = allocate(count * sizeof(float) + 64);
-        memory[1] = allocate(count * sizeof(float) + 64);
-        built.image = aligned(memory[0]);
-        built.memory = aligned(memory[1]);
-        for (i = 0; i < count; i++) built.image[i] = (float)test_uniform(&test_random);
-        bench_medians(run_build, forms, seconds);
-        printf("fis_build: %d by %d, %d channels\n  %-18s %8s %7s\n", built.width, built.height, built.channels, "",
-               "ms", "/ moved");
-        for (form = 0; form < forms; form++)
-            printf("  %-18s %8.3f %7.2f\n", names[form], 1e3 * seconds[form], seconds[form] / seconds[0]);
+        quartiles seconds[3];
+        char inputs[64];
+        const double texels = (double)sizes[size][0] * sizes[size][1];
+        int forms = sizes[size][2] == 1 ? 3 : 2, form;
+        build_begin(sizes[size][0], sizes[size][1], sizes[size][2]);
+        bench_times(run_build, forms, seconds);
+        build_end();
+        snprintf(inputs, sizeof inputs, "%d by %d, %d channels", sizes[size][0], sizes[size][1], sizes[size][2]);
+        printf("fis_build: %s\n  %-18s %8s %5s %7s\n", inputs, "", "ms", "+-%", "/ moved");
+        for (form = 0; form < forms; form++) {
+            printf("  %-18s %8.3f %5.1f %7.2f\n", names[form], 1e3 * seconds[form].median, bench_spread(seconds[form]),
+                   seconds[form].median / seconds[0].median);
+            bench_function_row("fis.h", "fis_build", names[form], form > 0, inputs, "");
+            csv_skip(&bench_table[TABLE_FUNCTIONS], 5);
+            csv_quartiles(&bench_table[TABLE_FUNCTIONS], quartiles_scaled(seconds[form], 1e9 / texels));
+            csv_row(&bench_table[TABLE_FUNCTIONS]);
+        }
         printf("\n");
         fflush(stdout);
-        free(memory[1]);
-        free(memory[0]);
     }
+}
+
+/* The image is read and the pyramid, which begins with it, is written. The copy moves as many, but that it reads more. */
+fis_build_limit fis_build_measure(int channels) {
+    const int width = 1920, height = 1088;
+    const double texels = (double)width * height, pyramid = (double)fis_pyramid_size(width, height, channels);
+    quartiles seconds[2];
+    fis_build_limit l;
+    build_begin(width, height, channels);
+    bench_times(run_build, 2, seconds);
+    build_end();
+    l.bytes = sizeof(float) * (channels + pyramid / texels);
+    l.nanoseconds.median = seconds[1].median * 1e9 / texels;
+    l.nanoseconds.low = seconds[1].low * 1e9 / texels;
+    l.nanoseconds.high = seconds[1].high * 1e9 / texels;
+    l.peak = sizeof(float) * 2 * pyramid / seconds[0].median * 1e-9;
+    return l;
 }

@@ -533,4 +533,4 @@ const bench_row sg_bench[] = {
      exact_vsl,
      lobe_error,
      {BENCH_FORM("vsl_lobe", our_vsl), BENCH_FORM("printed, libm", printed_vsl)}},
-    {0, 0, 0, 0, 0, 0, 0, {{0, 0, 0}}}};
+    {0}};

@@ -222,14 +222,22 @@ float lobe_bilateral_log_energy(sg_lobe g) {
 
 // Several lobes, up to 4, as one of the same integral and mean direction
 sg_lobe bilateral_merge(sg_lobe lobes[4], int count) {
-    sg_lobe sum, merged;
-    float top = -1e30, total = 0.0;
-    for (int l = 0; l < count; l++) top = max(top, lobe_bilateral_log_energy(lobes[l]));
+    sg_lobe sum, merged, brightest = lobes[0];
+    float top = lobe_bilateral_log_energy(brightest), total = 0.0;
+    for (int l = 1; l < count; l++) {
+        float energy = lobe_bilateral_log_energy(lobes[l]);
+        if (energy > top) {
+            top = energy;
+            brightest = lobes[l];
+        }
+    }
+    float whole = sg_integral(lobe_sharpness(brightest));
     sum.axis = lobes[0].axis;
     sum.sharpness = 0.0;
     sum.log_amplitude = 0.0;
     for (int l = 0; l < count; l++) {
-        float energy = lobe_exp(lobe_bilateral_log_energy(lobes[l]) - top), sharpness = lobe_sharpness(lobes[l]);
+        float sharpness = lobe_sharpness(lobes[l]);
+        float energy = lobe_exp(lobes[l].log_amplitude - brightest.log_amplitude) * (sg_integral(sharpness) / whole);
         sg_lobe part;
         part.axis = lobes[l].axis;
         part.log_amplitude = -energy / (sharpness + 1.0);
@@ -239,7 +247,7 @@ sg_lobe bilateral_merge(sg_lobe lobes[4], int count) {
     }
     merged.axis = sum.axis;
     merged.sharpness = lobe_cluster_sharpness(sum);
-    merged.log_amplitude = top + lobe_log(total) - lobe_log(sg_integral(merged.sharpness));
+    merged.log_amplitude = brightest.log_amplitude + lobe_log(total * (whole / sg_integral(merged.sharpness)));
     return merged;
 }
 

@@ -42,7 +42,8 @@ static void compare_filters(gpu *device, const char *folder) {
         const scene world = s->what.build();
         frame f = frame_of(&world, &s->what, WIDTH, HEIGHT);
         image noisy = shade_frame(&f, SAMPLES, 1, 0, s->what.name), wanted = image_create(WIDTH, HEIGHT);
-        filter_planes *room = filter_planes_create(WIDTH, HEIGHT, filter_most_parts(f.guides, WIDTH * HEIGHT));
+        filter_planes *room =
+            filter_planes_create(WIDTH, HEIGHT, FILTER_RADIUS, filter_most_parts(f.guides, WIDTH * HEIGHT));
         filter_fill_colours(room, &noisy);
         filter_frame(room, f.guides, s->method, &s->parameter, filter_depth_variance, &wanted);
         pipeline_check("the filter changes the picture", image_psnr(&noisy, &wanted, 1) < 40);
