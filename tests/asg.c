@@ -454,6 +454,33 @@ static void form_thresholds(void) {
     }
 }
 
+/* Xu's form counts what is above 1e18 as that, and does not vanish there. */
+static void xu_saturates(void) {
+    const double up[3] = {0, 0, 1};
+    static const double sharpness[] = {2e18, 1e20, 1e25, 1e30};
+    asg_lobe a = lobe_around(up, 0, 10, 20), sharp = lobe_around(up, 0, 1e18, 1e18);
+    double most, most_sharp;
+    sg_lobe g;
+    int i;
+    g.axis = lobe_vector(0, 0, 1);
+    g.log_amplitude = 0;
+    g.sharpness = 2e18f;
+    most = (double)asg_sg_integral_xu(a, g);
+    most_sharp = (double)asg_sg_integral_xu(sharp, g);
+    test_that(most > 3e-18 && most_sharp > 1.5e-18, "something is left at 1e18", &most, 1);
+    for (i = 0; i < 4; i++) {
+        double input = sharpness[i], got;
+        g.sharpness = (float)sharpness[i];
+        got = (double)asg_sg_integral_xu(a, g);
+        test_that(fabs(got - most) <= 1e-6 * most, "a sharper SG is the same", &input, 1);
+        sharp.sharpness_x = (float)sharpness[i];
+        sharp.sharpness_y = (float)sharpness[3 - i];
+        g.sharpness = 2e18f;
+        got = (double)asg_sg_integral_xu(sharp, g);
+        test_that(fabs(got - most_sharp) <= 1e-6 * most_sharp, "and a sharper ASG", &input, 1);
+    }
+}
+
 /* Amplitudes do nothing but multiply. */
 static void amplitudes(void) {
     test_bound bound = {{0}, 1e-5, 0, 0, 0};
@@ -1573,6 +1600,7 @@ const test_case asg_tests[] = {
     {"asg_sg_form_named_cases", form_named_cases},
     {"asg_sg_form_thresholds", form_thresholds},
     {"asg_amplitudes", amplitudes},
+    {"asg_sg_integral_xu_saturates", xu_saturates},
     {"asg_isotropic", isotropic_matches},
     {"asg_sg_integral_below_aligned", sg_integrals_stay_below_aligned},
     {"asg_sg_integral_sharp_limit", sg_integrals_sharp_limit},
