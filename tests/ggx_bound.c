@@ -1211,6 +1211,32 @@ static double share(long part, long whole) {
     return p - 4.5 * sqrt(p * (1 - p) / (double)whole);
 }
 
+/* Whichever radius is the longest; and a half-space across the thin side of one at 0, where only its radius tells what
+   rounding takes. */
+static void test_thin_ellipsoids(void) {
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-2, 1e4), 1e-5);
+        float longest = e.radius[0], swap;
+        vec normal, axis;
+        double reach, offset;
+        int across = 1 + pick(2);
+        k = pick(3);
+        swap = e.radius[k];
+        e.radius[k] = e.radius[0];
+        e.radius[0] = swap;
+        record_ellipsoid(&e);
+        that(ggx_bound_enclosing(e).radius >= longest && ggx_bound_enclosing(e).radius <= longest * 1.00001f,
+             "the enclosing sphere has the longest radius");
+        axis = wide(e.axis[(k + across) % 3]);
+        normal = wide(narrow(unit(combine(1, axis, 1e-6 * uniform(), wide(e.axis[k])))));
+        record_vector(narrow(normal));
+        reach = sqrt(covariance(&e, normal, normal));
+        offset = (double)float_of(reach * (1 - 0x1p-23));
+        that(ggx_ellipsoid_hits_half_space(e, narrow(normal), (float)offset), "a half-space across the thin side");
+    }
+}
+
 /* A box beside the ellipsoid's own bounding box is not hit, by more than the growth that covers rounding. */
 static void test_boxes_beside(void) {
     int i, k;
@@ -1597,6 +1623,7 @@ const test_case ggx_bound_tests[] = {{"ggx_ndf", test_ndf},
                                      {"ggx_bound_diffuse", test_diffuse},
                                      {"ggx_boxes", test_boxes},
                                      {"ggx_boxes_beside", test_boxes_beside},
+                                     {"ggx_thin_ellipsoids", test_thin_ellipsoids},
                                      {"ggx_boxes_near", test_boxes_near},
                                      {"ggx_transform", test_transform},
                                      {"ggx_tiles", test_tiles},
