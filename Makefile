@@ -164,7 +164,7 @@ fuzz: $(BUILD)/flags
 HEADER = $(HEADERS)
 
 mutation:
-	@sh tests/mutation/mutate.sh $(BUILD) $(CC) $(COUNT) $(SEED) $(JOBS) $(HEADER)
+	@sh tests/mutation/mutate.sh $(BUILD) "$(CC)" $(COUNT) $(SEED) $(JOBS) $(HEADER)
 
 # Each header alone, as C99 and, where the compiler knows it, as C++17.
 headers: $(BUILD)/flags

@@ -419,6 +419,121 @@ static void form_keeps_its_word(void) {
     test_report(&bound);
 }
 
+/* The thresholds as they are stated, from both sides */
+static void form_thresholds(void) {
+    const double up[3] = {0, 0, 1};
+    double in[3];
+    int k, i;
+    for (k = 0; k < 3; k++) {
+        float tolerance = k == 0 ? 1e-4f : k == 1 ? 1e-3f : 1e-2f, light;
+        double share = .17 / (double)tolerance, reach = 1 + 2.5 * (double)tolerance;
+        asg_lobe round = lobe_around(up, 0, share, share), thin = lobe_around(up, 0, 100, 1e6);
+        asg_lobe oval = lobe_around(up, 0, 10 * share, 10 * share * pow(1 + 0.85 * (reach - 1), 2));
+        asg_lobe longer = lobe_around(up, 0, 10 * share, 10 * share * pow(1 + 1.3 * (reach - 1), 2));
+        asg_lobe wide = lobe_around(up, 0, 0.1, 0.1);
+        in[0] = (double)tolerance;
+        for (i = -2; i <= 12; i++) {
+            light = (float)pow(10, i);
+            in[1] = i;
+            test_that(asg_sg_form(round, light, tolerance) == ASG_FORM_SG, "an SG for lobes of .16 / tolerance", in, 2);
+            round.sharpness_x = round.sharpness_y = (float)(0.13 / (double)tolerance);
+            test_that(asg_sg_form(round, (float)(0.26 / (double)tolerance), tolerance) != ASG_FORM_SG,
+                      "not for wider ones with a light as wide", in, 2);
+            round.sharpness_x = round.sharpness_y = (float)share;
+        }
+        test_that(asg_sg_form(oval, 1e30f, tolerance) == ASG_FORM_SG, "nor for lobes nearly round", in, 1);
+        test_that(asg_sg_form(longer, 1e30f, tolerance) != ASG_FORM_SG, "but for longer ones", in, 1);
+        light = (float)(2 * 0.62 / (double)tolerance);
+        test_that(asg_sg_form(thin, light, tolerance) == ASG_FORM_XU, "Xu's form from .6 / tolerance", in, 1);
+        light = (float)(2 * 0.2 / (double)tolerance);
+        test_that(asg_sg_form(thin, light, tolerance) == ASG_FORM_ACCURATE, "not for wider lights", in, 1);
+        light = (float)(2 * pow(0.32 / (double)tolerance, 2));
+        test_that(asg_sg_form(wide, light, tolerance) == ASG_FORM_XU, "Xu's form for wide lobes", in, 1);
+        light = (float)(2 * pow(0.25 / (double)tolerance, 2));
+        test_that(asg_sg_form(wide, light, tolerance) == ASG_FORM_ACCURATE, "not for wider lights", in, 1);
+    }
+}
+
+/* Xu's form counts what is above 1e18 as that, and does not vanish there. */
+static void xu_saturates(void) {
+    const double up[3] = {0, 0, 1};
+    static const double sharpness[] = {2e18, 1e20, 1e25, 1e30};
+    asg_lobe a = lobe_around(up, 0, 10, 20), sharp = lobe_around(up, 0, 1e18, 1e18);
+    double most, most_sharp;
+    sg_lobe g;
+    int i;
+    g.axis = lobe_vector(0, 0, 1);
+    g.log_amplitude = 0;
+    g.sharpness = 2e18f;
+    most = (double)asg_sg_integral_xu(a, g);
+    most_sharp = (double)asg_sg_integral_xu(sharp, g);
+    test_that(most > 3e-18 && most_sharp > 1.5e-18, "something is left at 1e18", &most, 1);
+    for (i = 0; i < 4; i++) {
+        double input = sharpness[i], got;
+        g.sharpness = (float)sharpness[i];
+        got = (double)asg_sg_integral_xu(a, g);
+        test_that(fabs(got - most) <= 1e-6 * most, "a sharper SG is the same", &input, 1);
+        sharp.sharpness_x = (float)sharpness[i];
+        sharp.sharpness_y = (float)sharpness[3 - i];
+        g.sharpness = 2e18f;
+        got = (double)asg_sg_integral_xu(sharp, g);
+        test_that(fabs(got - most_sharp) <= 1e-6 * most_sharp, "and a sharper ASG", &input, 1);
+    }
+}
+
+/* Amplitudes do nothing but multiply. */
+static void amplitudes(void) {
+    test_bound bound = {{0}, 1e-5, 0, 0, 0};
+    test_rng rng = {118 + test_seed};
+    int i, k;
+    strcpy(bound.label, "amplitudes multiply");
+    for (i = 0; i < test_draws(100000); i++) {
+        double z[3], other[3], inputs[7];
+        asg_lobe a, b;
+        sg_lobe g;
+        test_direction(&rng, z);
+        for (k = 0; k < 5; k++) inputs[k] = test_log_uniform(&rng, 1, 100);
+        direction_near(&rng, z, 0.2 * test_uniform(&rng), other);
+        a = lobe_around(z, 7 * test_uniform(&rng), inputs[0], inputs[1]);
+        b = lobe_around(other, 7 * test_uniform(&rng), inputs[2], inputs[3]);
+        g.axis = narrow(other);
+        g.sharpness = (float)inputs[4];
+        g.log_amplitude = 0;
+        {
+            float plain[] = {asg_eval(a, g.axis),          asg_integral(a),       asg_integral_approx(a),
+                             asg_sg_integral_xu(a, g),     asg_sg_integral(a, g), asg_product_integral(a, b),
+                             asg_product_integral_xu(a, b)};
+            a.log_amplitude = (float)(inputs[5] = 6 * test_uniform(&rng) - 3);
+            b.log_amplitude = g.log_amplitude = (float)(inputs[6] = 6 * test_uniform(&rng) - 3);
+            {
+                float got[] = {asg_eval(a, g.axis),          asg_integral(a),       asg_integral_approx(a),
+                               asg_sg_integral_xu(a, g),     asg_sg_integral(a, g), asg_product_integral(a, b),
+                               asg_product_integral_xu(a, b)};
+                for (k = 0; k < 7; k++) {
+                    double wanted = (double)plain[k] * exp(inputs[5] + (k > 2 ? inputs[6] : 0));
+                    test_within(&bound, (double)got[k], wanted, wanted, inputs, 7);
+                }
+            }
+        }
+    }
+    { /* also that of a reflection lobe, up to e^10 */
+        lobe_vec3 normal = lobe_vector(0, 0, 1), wi = lobe_vector(0, -0.6f, 0.8f), place = lobe_vector(0, 0, 0);
+        asg_lobe reflection = asg_ggx_lobe(normal, wi, 0.3f);
+        vsgl light;
+        double plain, wanted;
+        memset(&light, 0, sizeof light);
+        light.position = lobe_vector(0, 3, 4);
+        light.variance = 0.01f;
+        light.emission[0].axis = lobe_vector(0, -0.6f, -0.8f);
+        light.emission[0].sharpness = 2;
+        plain = (double)asg_vsgl_specular(light, VSGL_DIFFUSE, place, normal, wi, 0.3f, reflection);
+        reflection.log_amplitude = 9.9f;
+        wanted = plain * exp((double)reflection.log_amplitude);
+        test_within(&bound, (double)asg_vsgl_specular(light, VSGL_DIFFUSE, place, normal, wi, 0.3f, reflection), wanted,
+                    wanted, &plain, 1);
+    }
+}
+
 static void form_named_cases(void) {
     const double up[3] = {0, 0, 1};
     double l = 0;
@@ -1483,6 +1598,9 @@ const test_case asg_tests[] = {
     {"asg_sg_integral_gains", sg_integral_gains},
     {"asg_sg_form", form_keeps_its_word},
     {"asg_sg_form_named_cases", form_named_cases},
+    {"asg_sg_form_thresholds", form_thresholds},
+    {"asg_amplitudes", amplitudes},
+    {"asg_sg_integral_xu_saturates", xu_saturates},
     {"asg_isotropic", isotropic_matches},
     {"asg_sg_integral_below_aligned", sg_integrals_stay_below_aligned},
     {"asg_sg_integral_sharp_limit", sg_integrals_sharp_limit},

@@ -958,6 +958,35 @@ static void test_normalisation(void) {
     test_report(&furnace);
 }
 
+/* A tangent counts down to .001 of the normal; nearer, any does, whichever is given. */
+static void test_tangents_near(void) {
+    test_bound same = stated("as the perpendicular tangent", 2e-3);
+    int i;
+    for (i = 0; i < 20000; i++) {
+        lobe_vec3 normal, h, tangent, other;
+        double angle;
+        float ax, ay, wanted;
+        vec n, t;
+        begin();
+        record_vector(normal = nearly_unit(random_direction()));
+        n = unit(wide(normal));
+        t = perpendicular(n);
+        ax = (float)record(log_uniform(0.3, 1));
+        ay = (float)record(log_uniform(0.3, 1));
+        record_vector(h = nearly_unit(towards(n, perpendicular(n), 1.5 * uniform())));
+        angle = record(log_uniform(.00105, .1));
+        record_vector(tangent = nearly_unit(towards(n, t, angle)));
+        wanted = ggx_ndf_aniso(h, normal, narrow(t), ax, ay);
+        within(&same, (double)ggx_ndf_aniso(h, normal, tangent, ax, ay), (double)wanted, (double)wanted);
+        angle = record(log_uniform(1e-8, .00095));
+        record_vector(tangent = nearly_unit(towards(n, t, angle)));
+        record_vector(other = nearly_unit(towards(n, perpendicular(n), angle)));
+        wanted = ggx_ndf_aniso(h, normal, other, ax, ay);
+        within(&same, (double)ggx_ndf_aniso(h, normal, tangent, ax, ay), (double)wanted, (double)wanted);
+    }
+    test_report(&same);
+}
+
 /* At the finest roughness, where floats are scarce, against long double */
 static void test_sharp(void) {
     test_bound bound = bound_of("ggx_ndf", "angular");
@@ -1180,6 +1209,60 @@ static void test_boxes(void) {
 static double share(long part, long whole) {
     double p = (double)part / (double)whole;
     return p - 4.5 * sqrt(p * (1 - p) / (double)whole);
+}
+
+/* Whichever radius is the longest; and a half-space across the thin side of one at 0, where only its radius tells what
+   rounding takes. */
+static void test_thin_ellipsoids(void) {
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-2, 1e4), 1e-5);
+        float longest = e.radius[0], swap;
+        vec normal, axis;
+        double reach, offset;
+        int across = 1 + pick(2);
+        k = pick(3);
+        swap = e.radius[k];
+        e.radius[k] = e.radius[0];
+        e.radius[0] = swap;
+        record_ellipsoid(&e);
+        that(ggx_bound_enclosing(e).radius >= longest && ggx_bound_enclosing(e).radius <= longest * 1.00001f,
+             "the enclosing sphere has the longest radius");
+        axis = wide(e.axis[(k + across) % 3]);
+        normal = wide(narrow(unit(combine(1, axis, 1e-6 * uniform(), wide(e.axis[k])))));
+        record_vector(narrow(normal));
+        reach = sqrt(covariance(&e, normal, normal));
+        offset = (double)float_of(reach * (1 - 0x1p-23));
+        that(ggx_ellipsoid_hits_half_space(e, narrow(normal), (float)offset), "a half-space across the thin side");
+    }
+}
+
+/* A box beside the ellipsoid's own bounding box is not hit, by more than the growth that covers rounding. */
+static void test_boxes_beside(void) {
+    int i, k;
+    for (i = 0; i < 50000; i++) {
+        ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-2, 1e4), 1e-4);
+        double size = (double)e.radius[0], center[3], half[3], extent[3], reach = 0;
+        int beside = pick(3);
+        e.center = narrow(combine(3 * size * uniform(), random_direction(), 0, random_direction()));
+        for (k = 0; k < 3; k++) {
+            vec axis = of(k == 0, k == 1, k == 2);
+            extent[k] = sqrt(covariance(&e, axis, axis));
+            half[k] = (double)float_of(size * log_uniform(1e-3, 10));
+            reach += extent[k] + half[k];
+        }
+        for (k = 0; k < 3; k++) {
+            double away = k == beside ? (pick(2) ? 1 : -1) * (extent[k] + half[k] + 1e-5 * (reach + 2 * size))
+                                      : (2 * uniform() - 1) * (extent[k] + half[k]);
+            center[k] = component(wide(e.center), k) + away;
+        }
+        record_ellipsoid(&e);
+        record_vector(narrow(of(center[0], center[1], center[2])));
+        record_vector(narrow(of(half[0], half[1], half[2])));
+        that(!ggx_ellipsoid_hits_box(e, narrow(of(center[0], center[1], center[2])),
+                                     narrow(of(half[0], half[1], half[2]))),
+             "a box beside the bounding box is not hit");
+    }
 }
 
 static void test_boxes_near(void) {
@@ -1522,6 +1605,7 @@ static void test_special_cases(void) {
 
 const test_case ggx_bound_tests[] = {{"ggx_ndf", test_ndf},
                                      {"ggx_sharp", test_sharp},
+                                     {"ggx_tangents_near", test_tangents_near},
                                      {"ggx_smith", test_smith},
                                      {"ggx_brdf", test_brdf},
                                      {"ggx_normalisation", test_normalisation},
@@ -1538,6 +1622,8 @@ const test_case ggx_bound_tests[] = {{"ggx_ndf", test_ndf},
                                      {"ggx_bound_volumes_aniso", test_volumes_aniso},
                                      {"ggx_bound_diffuse", test_diffuse},
                                      {"ggx_boxes", test_boxes},
+                                     {"ggx_boxes_beside", test_boxes_beside},
+                                     {"ggx_thin_ellipsoids", test_thin_ellipsoids},
                                      {"ggx_boxes_near", test_boxes_near},
                                      {"ggx_transform", test_transform},
                                      {"ggx_tiles", test_tiles},

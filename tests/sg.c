@@ -1040,6 +1040,36 @@ static void test_cluster_of_one_vpl(void) {
 }
 
 /* Patches of VPLs anywhere in a scene of 1e4 units, of lobes as sharp as can be, merged as a tree and one by one. */
+/* The figures that a cluster holds, see the struct: weight times mean length, and what that is short of the weight; and
+   the sharpness of lights whose weight is all but nothing. */
+static void test_cluster_figures(void) {
+    test_bound figure = stated("weights of mean lengths", 1e-6);
+    test_bound sharpness = test_bound_of("sg.h", "vsgl_cluster_from_vpl", "sharpness");
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        vpl p;
+        vsgl_cluster c;
+        vsgl v;
+        begin();
+        p = draw_vpl_of(random_axis(), log_uniform(1e-4, 1));
+        for (k = 0; k < 2; k++) {
+            float weak = (float)record(log_uniform(1e-25, 1e15));
+            p.power[k] =
+                lobe_scale(lobe_vector((float)log_uniform(0.1, 1), (float)uniform(0, 1), (float)uniform(0, 1)), weak);
+            record_vector(p.power[k]);
+        }
+        c = cluster_of(p, lobe_vector(0, 0, 0));
+        v = vsgl_from_cluster(c);
+        for (k = 0; k < 2; k++) {
+            sg_lobe lobe = k ? sg_ggx_lobe(p.normal, p.wi, p.alpha) : sg_diffuse_lobe(p.normal);
+            double l = (double)lobe.sharpness, weight = exact_mean(p.power[k]);
+            within(&figure, (double)c.direction[k].sharpness, weight * l / (l + 1), weight);
+            within(&figure, (double)c.direction[k].log_amplitude, -weight / (l + 1), weight / (l + 1));
+            if (l <= sharpness.high) within(&sharpness, (double)v.emission[k].sharpness, l, l);
+        }
+    }
+}
+
 static void test_cluster_merge(void) {
     enum { LEVELS = 12, VPLS = 1 << LEVELS };
     static vsgl_cluster leaf[VPLS];
@@ -1485,6 +1515,7 @@ const test_case sg_tests[] = {{"sg_exp2", test_exp2},
                               {"vsgl_of_a_disc", test_vsgl_of_a_disc},
                               {"vsgl_without_power", test_vsgl_without_power},
                               {"vsgl_cluster_of_one_vpl", test_cluster_of_one_vpl},
+                              {"vsgl_cluster_figures", test_cluster_figures},
                               {"vsgl_cluster_merge", test_cluster_merge},
                               {"vsgl_cluster_against_moments", test_cluster_against_moments},
                               {"vsl_lobe", test_vsl},

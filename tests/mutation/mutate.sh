@@ -85,7 +85,7 @@ worker() { # number: every jobs-th mutant of the sample
     awk -v jobs="$jobs" -v job="$1" 'NR % jobs == job % jobs' "$folder/$header.sample" |
         while IFS=$tab read -r number kind text; do
             text=$text awk -v number="$number" 'NR == number { $0 = ENVIRON["text"] } { print }' "$header" > "$copy/$header"
-            printf '%s\t%s\t%s\t%s\n' "$(judge "$copy")" "$number" "$kind" "$text"
+            printf '%s\t%s\t%s\t%s\n' "$(judge "$copy" 2> /dev/null)" "$number" "$kind" "$text"
             echo >> "$folder/$header.done"
             [ ! -t 2 ] || printf '\r%s %d of %d' "$header" "$(wc -l < "$folder/$header.done")" "$(wc -l < "$folder/$header.sample")" >&2
         done > "$folder/$header.results.$1"
