@@ -328,7 +328,7 @@ LOBE_API float ggx_fresnel(float f0, float cos_half) {
 
    f0         [0, 1]
    cos_theta  of wi and the normal
-   returns    at least ggx_fresnel of any ggx_cos_half, also as rounded; less than 2e-5 above their supremum
+   returns    at least ggx_fresnel of any ggx_cos_half, also as rounded; less than 2e-5 above their supremum, at most 1
               [bound ggx_fresnel_max abs 2e-5]
 
    Rounding: as stated
