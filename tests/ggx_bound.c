@@ -705,6 +705,12 @@ static void test_accept(void) {
     that(ggx_accept_probability(1, 0, .1f) == 1 && ggx_accept_probability(0, 0, .1f) == 0, "probability at the light");
     that(ggx_accept_weight(0, 0) == 0 && ggx_estimate(0, 1, .1f, 0) == 0, "no light is never accepted");
     that(test_is_finite(ggx_estimate(1e18f, 0, .1f, .5f)) && ggx_estimate(1, 0, .1f, .5f) > 0, "estimate at the light");
+    for (i = 0; i < 1000; i++) { /* above, not at */
+        float p = ggx_xi((unsigned)i << 22);
+        begin();
+        record((double)p);
+        that(ggx_accept_weight(p, p) == 0 && ggx_accept_weight(p + 0x1p-22f, p) > 0, "accepted above xi");
+    }
     test_report(&probability);
     test_report(&range);
     test_report(&weight);
