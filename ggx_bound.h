@@ -328,7 +328,7 @@ LOBE_API float ggx_fresnel(float f0, float cos_half) {
 
    f0         [0, 1]
    cos_theta  of wi and the normal
-   returns    at least ggx_fresnel of any ggx_cos_half, also as rounded; less than 2e-5 above their supremum
+   returns    at least ggx_fresnel of any ggx_cos_half, also as rounded; less than 2e-5 above their supremum, at most 1
               [bound ggx_fresnel_max abs 2e-5]
 
    Rounding: as stated
@@ -879,8 +879,8 @@ LOBE_API lobe_vec3 lobe_ggx_descend(lobe_ggx_metric m, lobe_vec3 p, lobe_vec3 mi
    returns    1, or 0: surely not
 
    Rounding: covered: the box is grown by 2^-20 of the sum of its distance, its size and the largest radius
-   Model:    of boxes that are hit by the ellipsoid's own bounding box, but not by it, at most 1 % are not told
-             [bound ggx_ellipsoid_hits_box false_hits .01]
+   Model:    of boxes that are hit by the ellipsoid's own bounding box, but not by it, at most .5 % are not told
+             [bound ggx_ellipsoid_hits_box false_hits .005]
    Source:   003, section 5.1, the sphere in stretched space against a box there; then the planes across the coordinate
              axes, and across the ellipsoid's gradient where three rounds of coordinate descent find the box nearest
 */

@@ -907,7 +907,7 @@ static void split(void) {
 static void cell_sum(void) {
     test_bound bound = test_bound_of("fis.h", "fis_cell_sum", "rel");
     enum { WIDTH = 129, HEIGHT = 65, CHANNELS = 18, CELLS = 300 };
-    float *image = (float *)malloc(WIDTH * HEIGHT * CHANNELS * sizeof *image), sums[CHANNELS];
+    float *image = (float *)malloc(WIDTH * HEIGHT * CHANNELS * sizeof *image), sums[2 * CHANNELS];
     float *plane = (float *)malloc(WIDTH * HEIGHT * sizeof *plane), *pdf = make_image(POWER, WIDTH, HEIGHT, 4);
     double *memory = (double *)malloc(fis_split_size(WIDTH, HEIGHT) * sizeof *memory);
     double added[CHANNELS] = {0}, total, magnitude, input;
@@ -955,7 +955,9 @@ static void cell_sum(void) {
             inside.v0 = clamped(inside.v0, 0, 1), inside.v1 = clamped(inside.v1, 0, 1);
             wanted = cell_total(plane, WIDTH, HEIGHT, inside);
             size = fmax((inside.u1 - inside.u0) * (inside.v1 - inside.v0), 1e-30);
+            sums[CHANNELS] = 42;
             fis_cell_sum(image, WIDTH, HEIGHT, CHANNELS, cells[i], sums);
+            test_that(sums[CHANNELS] == 42.0f, "a sum for each channel", 0, 0);
             input = i;
             test_within(&bound, (double)sums[c], wanted, WIDTH * HEIGHT * size, &input, 1);
             if (i < CELLS) added[c] += (double)sums[c];

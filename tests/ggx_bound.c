@@ -705,6 +705,12 @@ static void test_accept(void) {
     that(ggx_accept_probability(1, 0, .1f) == 1 && ggx_accept_probability(0, 0, .1f) == 0, "probability at the light");
     that(ggx_accept_weight(0, 0) == 0 && ggx_estimate(0, 1, .1f, 0) == 0, "no light is never accepted");
     that(test_is_finite(ggx_estimate(1e18f, 0, .1f, .5f)) && ggx_estimate(1, 0, .1f, .5f) > 0, "estimate at the light");
+    for (i = 0; i < 1000; i++) { /* above, not at */
+        float p = ggx_xi((unsigned)i << 22);
+        begin();
+        record((double)p);
+        that(ggx_accept_weight(p, p) == 0 && ggx_accept_weight(p + 0x1p-22f, p) > 0, "accepted above xi");
+    }
     test_report(&probability);
     test_report(&range);
     test_report(&weight);
@@ -732,7 +738,7 @@ static void test_fresnel(void) {
     test_bound half = bound_of("ggx_cos_half", "abs");
     int i;
     for (i = 0; i < test_few(100000); i++) {
-        float f0 = float_of(pick(5) ? uniform() : 0.04), c = float_of(uniform());
+        float f0 = float_of(pick(5) ? uniform() : pick(3) ? 0.04 : 1), c = float_of(uniform());
         double ci, fine = 1 - (double)c, wanted = (double)f0 + (1 - (double)f0) * pow(fine, 5), sup;
         vec n = random_direction(), wi = incidence(n, &ci), wo = towards(n, perpendicular(n), acos(uniform())), mirror;
         lobe_vec3 fi, fo;
@@ -756,6 +762,7 @@ static void test_fresnel(void) {
         sup = (double)f0 + (1 - (double)f0) * pow(sup, 5);
         within(&most, (double)got, sup, 1);
         that((double)got >= sup - 1e-7, "the largest Fresnel factor is the supremum");
+        that(got <= 1, "no Fresnel factor is above 1");
     }
     test_report(&ulp);
     test_report(&most);
@@ -1432,6 +1439,66 @@ static void test_tiles_near(void) {
     test_report(&closer);
 }
 
+/* A light far from the camera and all but a point: the tile that it lies in is hit, whatever rounding takes from terms
+   that are many times its radius. */
+static void test_tiles_far(void) {
+    int i;
+    for (i = 0; i < 50000; i++) {
+        ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-7, 1e-2), 1e-3);
+        double depth = log_uniform(1, 1e5), size = depth * 1e-7;
+        ggx_tile t;
+        ggx_stretched s;
+        float depth0, depth1;
+        vec c;
+        e.center = narrow(of(depth * (pick(2) ? 1 : -1) * log_uniform(1e-3, 10),
+                             depth * (pick(2) ? 1 : -1) * log_uniform(1e-3, 10), depth));
+        c = wide(e.center);
+        t.left = float_of(c.x / c.z - log_uniform(1e-7, 1e-3) * (1 + fabs(c.x / c.z)));
+        t.right = float_of(c.x / c.z + log_uniform(1e-7, 1e-3) * (1 + fabs(c.x / c.z)));
+        t.bottom = float_of(c.y / c.z - log_uniform(1e-7, 1e-3) * (1 + fabs(c.y / c.z)));
+        t.top = float_of(c.y / c.z + log_uniform(1e-7, 1e-3) * (1 + fabs(c.y / c.z)));
+        depth0 = float_of(depth - log_uniform(1, 1e3) * size);
+        depth1 = float_of(depth + log_uniform(1, 1e3) * size);
+        record_ellipsoid(&e);
+        record_tile(t, depth0, depth1);
+        s = ggx_stretch_ellipsoid(e);
+        that(ggx_stretched_hits_tile(s, t, depth0, depth1), "the tile of a far light is hit");
+        that(ggx_stretched_hits_frustum(s, t, depth0, depth1), "the frustum of a far light is hit");
+        that(ggx_ellipsoid_hits_sides(e, t), "the sides of a far light's tile are hit");
+        {
+            double x = s.swapped ? c.y : c.x, y = s.swapped ? c.x : c.y, terms;
+            terms = fabs((double)s.xx * x) + fabs((double)s.xy * y) + fabs((double)s.yy * y) +
+                    fabs((double)s.xz * c.z) + fabs((double)s.yz * c.z) + fabs((double)s.zz * c.z);
+            that(fabs((double)s.size / terms - 1) < 1e-5, "the size of the center's terms");
+        }
+    }
+}
+
+/* A horizon through a tile's corner far away, and nearly across one axis of the image: the tile is kept. */
+static void test_horizons_far(void) {
+    int i;
+    for (i = 0; i < 50000; i++) {
+        float depth = float_of(log_uniform(1, 1e5)), x = float_of(log_uniform(1e-3, 10)),
+              y = float_of(log_uniform(1e-3, 10));
+        vec corner = of((double)depth * (double)x, (double)depth * (double)y, (double)depth), axis;
+        ggx_tile t;
+        lobe_vec3 normal, place;
+        t.left = t.bottom = 0;
+        t.right = x;
+        t.top = y;
+        axis = pick(2) ? of(1, 0, 0) : of(0, 1, 0);
+        normal = nearly_unit(combine(1, axis, log_uniform(1e-6, 1), random_direction()));
+        if (normal.x < 0 || normal.y < 0) continue; /* the corner is not the highest */
+        place = narrow(combine(1, corner, 1e-4 * (double)depth * uniform(), perpendicular(wide(normal))));
+        begin();
+        record_vector(normal);
+        record_vector(place);
+        record_tile(t, depth, depth);
+        if (dot(wide(normal), combine(1, corner, -1, wide(place))) >= 0)
+            that(ggx_tile_above(place, normal, t, depth, depth), "a corner above a horizon far away");
+    }
+}
+
 static void test_tile_above(void) {
     test_bound above = bound_of("ggx_tile_above", "slack");
     int i;
@@ -1629,6 +1696,8 @@ const test_case ggx_bound_tests[] = {{"ggx_ndf", test_ndf},
                                      {"ggx_tiles", test_tiles},
                                      {"ggx_tiles_near", test_tiles_near},
                                      {"ggx_tile_above", test_tile_above},
+                                     {"ggx_tiles_far", test_tiles_far},
+                                     {"ggx_horizons_far", test_horizons_far},
                                      {"ggx_edges", test_bound_edges},
                                      {"ggx_special_cases", test_special_cases},
                                      {0, 0}};
