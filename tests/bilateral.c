@@ -494,7 +494,7 @@ static void check_weight(const char *form, float w, float back, float own, doubl
     test_that(test_is_finite(w) && w >= 0 && w <= 1, what, inputs, 9);
     snprintf(what, sizeof what, "%s: a pixel's weight with itself is 1", form);
 #ifdef __FAST_MATH__ /* copies of the code may round differently, which wide lobes of mixtures magnify */
-    if (!strcmp(form, "sg_mixture_tap")) own = (double)own > 1 - 3e-5 * (1 + inputs[8]) ? 1 : own;
+    if (!strcmp(form, "sg_mixture_tap")) own = (double)own > 1 - 6e-5 * (1 + inputs[8]) ? 1 : own;
 #endif
     test_that(own == 1, what, inputs, 9);
     snprintf(what, sizeof what, "%s: a weight is symmetric", form);
