@@ -92,8 +92,14 @@ uninstall:
 clean:
 	rm -rf $(BUILD)
 
-$(EXAMPLES:%=$(BUILD)/%): $(BUILD)/%: examples/%.c $(COMMON) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
-	$(COMPILE) $(OPENMP) $< $(COMMON) -o $@ -lm
+COMMON_OBJECTS = $(COMMON:examples/common/%.c=$(BUILD)/common/%.o)
+
+$(BUILD)/common/%.o: examples/common/%.c $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
+	@mkdir -p $(BUILD)/common
+	$(COMPILE) $(OPENMP) -c $< -o $@
+
+$(EXAMPLES:%=$(BUILD)/%): $(BUILD)/%: examples/%.c $(COMMON_OBJECTS) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
+	$(COMPILE) $(OPENMP) $< $(COMMON_OBJECTS) -o $@ -lm
 
 # Two at a time, also where make was not told so. tests/raster.c includes examples/common/raster.c, to count its memory.
 TEST_OBJECTS = $(TESTS:tests/%.c=$(BUILD)/unit/%.o) $(BUILD)/unit/file.o
