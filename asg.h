@@ -138,11 +138,11 @@ LOBE_API float asg_integral_approx(asg_lobe a) {
 /*
  asg_sg_integral_xu - Xu's integral of the product of an ASG and an SG
 
-   a, g       sharpness [0, 1e30]; above 1e18 it counts as 1e18, sums of the ASG's and half the SG's as at least 1e-4
+   a, g       sharpness [0, 1e30]; the ASG's and half the SG's above 1e12 count as 1e12, their sums as at least 1e-4
    returns    with nu = g.sharpness / 2, the ASG of sharpness l nu / (l + nu) at the SG's axis, times
               pi / sqrt((sharpness_x + nu) (sharpness_y + nu)); 0 for an SG from the horizon down
 
-   Rounding: <= 9 directional   [bound asg_sg_integral_xu directional 9 over 1e12 1e18]
+   Rounding: <= 9 directional   [bound asg_sg_integral_xu directional 9 over 1e12 2e12]
    Model:    within .042 of the value for aligned axes if all sharpnesses are 10 or more; where the value is above 1 %
              of that, relative RMS .04, of 500 draws <= .15; several times too large for sharpness below 1; asg_sg_form
              tells more
@@ -150,8 +150,8 @@ LOBE_API float asg_integral_approx(asg_lobe a) {
    Source:   Xu et al. 2013; 000, section 4.2; 001, Eq. 2
 */
 LOBE_API float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
-    float nu = lobe_at_most(0.5f * g.sharpness, 1e18f);
-    float lx = lobe_at_most(a.sharpness_x, 1e18f), ly = lobe_at_most(a.sharpness_y, 1e18f);
+    float nu = lobe_at_most(0.5f * g.sharpness, 1e12f);
+    float lx = lobe_at_most(a.sharpness_x, 1e12f), ly = lobe_at_most(a.sharpness_y, 1e12f);
     float x = lobe_dot(a.x, g.axis), y = lobe_dot(a.y, g.axis);
     float sx = lobe_at_least(lx + nu, 1e-4f), sy = lobe_at_least(ly + nu, 1e-4f), inverse = 1 / (sx * sy);
     float loss = nu * inverse * (lx * sy * (x * x) + ly * sx * (y * y));

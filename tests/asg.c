@@ -926,19 +926,18 @@ static void extremes_saturate(void) {
     for (i = 0; i < test_few(2000); i++) {
         const double z[3] = {0, 0, 1}; /* whose products are exact: nothing cancels */
         double axis[3], inputs[2], other = test_log_uniform(&rng, 1e-3, 1e30);
-        asg_lobe a, b, c, d;
+        asg_lobe a, c, d;
         sg_lobe g;
         inputs[0] = test_log_uniform(&rng, 1e19, 1e30);
         inputs[1] = other;
         a = lobe_around(z, 0, inputs[0], other);
         if (i % 2) a.sharpness_x = (float)other, a.sharpness_y = (float)inputs[0];
-        b = c = d = a;
-        b.sharpness_x = fminf(a.sharpness_x, 1e18f), b.sharpness_y = fminf(a.sharpness_y, 1e18f);
+        c = d = a;
         c.sharpness_x = fminf(a.sharpness_x, 1e12f), c.sharpness_y = fminf(a.sharpness_y, 1e12f);
         d.sharpness_x = fminf(a.sharpness_x, 1e9f), d.sharpness_y = fminf(a.sharpness_y, 1e9f);
         direction_near(&rng, z, i % 3 ? 0 : test_log_uniform(&rng, 1e-6, 3), axis);
         g = sg_around(axis, test_log_uniform(&rng, 1e-3, 1e30));
-        test_that(nearly(asg_sg_integral_xu(a, g), asg_sg_integral_xu(b, g)), "Xu's form counts at most 1e18", inputs,
+        test_that(nearly(asg_sg_integral_xu(a, g), asg_sg_integral_xu(c, g)), "Xu's form counts at most 1e12", inputs,
                   2);
         test_that(nearly(asg_sg_integral(a, g), asg_sg_integral(c, g)), "the accurate one at most 1e12", inputs, 2);
         test_that(nearly(asg_product_integral(a, a), asg_product_integral(d, d)), "products at most 1e9", inputs, 2);

@@ -55,8 +55,8 @@ float asg_integral_approx(asg_lobe a) {
 
 // Xu's integral of the product of an ASG and an SG
 float asg_sg_integral_xu(asg_lobe a, sg_lobe g) {
-    float nu = min(0.5 * g.sharpness, 1e18);
-    vec2 l = lobe_asg_sharpness(a, 1e18), s = max(l + nu, vec2(1e-4, 1e-4));
+    float nu = min(0.5 * g.sharpness, 1e12);
+    vec2 l = lobe_asg_sharpness(a, 1e12), s = max(l + nu, vec2(1e-4, 1e-4));
     vec3 w = lobe_asg_components(a, g.axis);
     float inverse = 1.0 / (s.x * s.y), loss = nu * inverse * dot(l * s.yx, w.xy * w.xy);
     return 3.14159265 * lobe_asg_exp(a.log_amplitude + g.log_amplitude - loss) * sqrt(inverse) * max(w.z, 0.0);
