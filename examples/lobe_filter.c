@@ -1065,7 +1065,7 @@ int main(int argc, char **argv) {
         {0, OPTION_WHOLE, 0, 0, 0, 0, 0},
     };
     float shared[2];
-    csv table = csv_begin(row_columns);
+    csv table;
     int i;
     options_read(options, argc, argv,
                  "Filters and upsamples noisy glossy light by weights that know the reflection lobes and by others,\n"
@@ -1075,6 +1075,7 @@ int main(int argc, char **argv) {
         return 0;
     }
     check_study_files(&o);
+    table = csv_begin(row_columns);
     printf("%dx%d pixels, %d paths each, %d for the reference; filters of %dx%d pixels. Errors are mean squares over\n"
            "what is glossy; times are the medians of up to %d turns on one core, preparation included.\n",
            o.size.width, o.size.height, o.samples, o.reference, 2 * o.radii.value[0] + 1, 2 * o.radii.value[0] + 1,
