@@ -161,7 +161,7 @@ fuzz: $(BUILD)/flags
 	    [ ! -e tests/fuzz/$$name.sh ] || sh tests/fuzz/$$name.sh $(BUILD)/fuzz/$$name; \
 	    $(FUZZ_CC) -std=c99 $(WARN) -O1 -g $(FUZZ_FLAGS) tests/fuzz/$$name.c -o $(BUILD)/fuzz.$$name -lm; \
 	    $(BUILD)/fuzz.$$name -max_total_time=$(SECONDS) -timeout=10 -max_len=2048 -len_control=0 -use_value_profile=1 \
-	        -print_final_stats=1 -artifact_prefix=$(BUILD)/fuzz.$$name. $(BUILD)/fuzz/$$name > $(BUILD)/fuzz.log 2>&1 || \
+	        -print_final_stats=1 $(FUZZ_ARGS) -artifact_prefix=$(BUILD)/fuzz.$$name. $(BUILD)/fuzz/$$name > $(BUILD)/fuzz.log 2>&1 || \
 	        { cat $(BUILD)/fuzz.log; exit 1; }; \
 	    grep -E 'DONE|stat::number_of_executed' $(BUILD)/fuzz.log; echo "ok     fuzz $$name, $(SECONDS) s"; \
 	done

@@ -252,7 +252,8 @@ LOBE_API float ggx_smith_g1_aniso(lobe_vec3 dir, lobe_vec3 normal, lobe_vec3 tan
 LOBE_API float ggx_smith_g2(float cos_i, float cos_o, float alpha) {
     float a = lobe_ggx_alpha(alpha), ci = lobe_at_most(lobe_at_least(cos_i, 0), 1);
     float co = lobe_at_most(lobe_at_least(cos_o, 0), 1);
-    return 2 * ci * co / lobe_at_least(co * lobe_ggx_slope(ci, a) + ci * lobe_ggx_slope(co, a), LOBE_TINY);
+    return lobe_at_most(2 * ci * co / lobe_at_least(co * lobe_ggx_slope(ci, a) + ci * lobe_ggx_slope(co, a), LOBE_TINY),
+                        1);
 }
 
 LOBE_API float ggx_smith_g2_separable(float cos_i, float cos_o, float alpha) {

@@ -116,7 +116,7 @@ float ggx_smith_g1_aniso(vec3 dir, vec3 normal, vec3 tangent, float alpha_x, flo
 // The share of facets that two directions see, with heights correlated
 float ggx_smith_g2(float cos_i, float cos_o, float alpha) {
     float a = lobe_ggx_alpha(alpha), ci = clamp(cos_i, 0.0, 1.0), co = clamp(cos_o, 0.0, 1.0);
-    return 2.0 * ci * co / max(co * lobe_ggx_slope(ci, a) + ci * lobe_ggx_slope(co, a), 1e-30);
+    return min(2.0 * ci * co / max(co * lobe_ggx_slope(ci, a) + ci * lobe_ggx_slope(co, a), 1e-30), 1.0);
 }
 
 // The same with independent heights
