@@ -12,26 +12,17 @@ BENCH_DECLARE(printed_asg_ggx_lobe);
 BENCH_DECLARE(printed_sg_weight);
 BENCH_DECLARE(cardano_asg_libm);
 
-static bench_input in;
-static bench_output out;
-
-static void put(int column, lobe_vec3 v) {
-    in.column[column][0] = v.x;
-    in.column[column + 1][0] = v.y;
-    in.column[column + 2][0] = v.z;
-}
-
 static void put_asg(int column, asg_lobe a) {
-    put(column, a.x);
-    put(column + 3, a.y);
-    put(column + 6, a.z);
-    in.column[column + 9][0] = a.sharpness_x;
-    in.column[column + 10][0] = a.sharpness_y;
+    hard_put(column, a.x);
+    hard_put(column + 3, a.y);
+    hard_put(column + 6, a.z);
+    hard_in.column[column + 9][0] = a.sharpness_x;
+    hard_in.column[column + 10][0] = a.sharpness_y;
 }
 
 static double ran(bench_loop *loop, int column) {
-    loop(&in, &out);
-    return (double)out.column[column][0];
+    loop(&hard_in, &hard_out);
+    return (double)hard_out.column[column][0];
 }
 
 static const double skew[3] = {0.3, -0.54, 0.8};
@@ -69,7 +60,7 @@ static void evaluate(const char *name, double lx, double ly, double angle) {
     z = dot(axis, exact.z);
     e = log(exact_eval(&exact, axis) / z);
     put_asg(ASG_A, a);
-    put(SG_B, dir.axis);
+    hard_put(SG_B, dir.axis);
     hard_case_row_printed(hard_case_of("asg.h", "asg_eval", "directional", name, (double)asg_eval(a, dir.axis),
                                        exact_eval(&exact, axis),
                                        exp(e) * (TEST_EPSILON + z * directional(fmax(lx, ly), e))),
@@ -98,9 +89,9 @@ static void with_point(const char *name, double lx, double ly, double sharpness,
     e = log(wanted / dot(axis, exact.z));
     wanted *= 2 * REFERENCE_PI / (double)g.sharpness;
     put_asg(ASG_A, a);
-    put(SG_B, g.axis);
-    in.column[SG_B + 3][0] = g.sharpness;
-    in.column[SG_B + 4][0] = 0;
+    hard_put(SG_B, g.axis);
+    hard_in.column[SG_B + 3][0] = g.sharpness;
+    hard_in.column[SG_B + 4][0] = 0;
     hard_case_row_printed(hard_case_of("asg.h", "asg_sg_integral", "directional", name, (double)asg_sg_integral(a, g),
                                        wanted, wanted * directional(fmax(lx, ly), e)),
                           ran(printed_asg_sg_integral_scalar, 0));
@@ -114,7 +105,7 @@ static void multiply(const char *name, const char *kind, asg_lobe a, asg_lobe b)
     if (!strcmp(kind, "directional")) unit = wanted * directional(most, log(wanted / aligned));
     put_asg(ASG_A, a);
     put_asg(ASG_B, b);
-    in.column[ASG_A + 11][0] = in.column[ASG_B + 11][0] = 0;
+    hard_in.column[ASG_A + 11][0] = hard_in.column[ASG_B + 11][0] = 0;
     hard_case_row_printed(
         hard_case_of("asg.h", "asg_product_integral", kind, name, (double)asg_product_integral(a, b), wanted, unit),
         ran(cardano_asg_libm_scalar, 0));
@@ -134,9 +125,9 @@ static void reflect(const char *name, double alpha, double incidence) {
     normalize(w);
     cosine = dot(n, w);
     wanted = 0.25 / ((double)width * (double)width * cosine * cosine);
-    put(SURFACE_NORMAL, normal);
-    put(SURFACE_WI, wi);
-    in.column[SURFACE_ALPHA_X][0] = width;
+    hard_put(SURFACE_NORMAL, normal);
+    hard_put(SURFACE_WI, wi);
+    hard_in.column[SURFACE_ALPHA_X][0] = width;
     hard_case_row_printed(hard_case_of("asg.h", "asg_reflection_lobe", "cosine", name,
                                        (double)asg_ggx_lobe(normal, wi, width).sharpness_y, wanted,
                                        wanted * TEST_EPSILON / cosine),
@@ -168,11 +159,11 @@ static double exact_weight(sg_lobe i, sg_lobe j, double beta, double *unit) {
 
 static void weigh(const char *name, sg_lobe i, sg_lobe j, double beta) {
     double unit, wanted = exact_weight(i, j, beta, &unit);
-    put(LOBE_A, i.axis);
-    put(LOBE_B, j.axis);
-    in.column[LOBE_A + 3][0] = i.sharpness;
-    in.column[LOBE_B + 3][0] = j.sharpness;
-    in.column[UNIFORM_U][0] = (float)beta;
+    hard_put(LOBE_A, i.axis);
+    hard_put(LOBE_B, j.axis);
+    hard_in.column[LOBE_A + 3][0] = i.sharpness;
+    hard_in.column[LOBE_B + 3][0] = j.sharpness;
+    hard_in.column[UNIFORM_U][0] = (float)beta;
     hard_case_row_printed(hard_case_of("bilateral.h", "bilateral_sg_weight", "similarity", name,
                                        (double)bilateral_sg_weight(i, j, (float)beta), wanted, unit),
                           ran(printed_sg_weight_scalar, 0));

@@ -91,6 +91,15 @@ hard_case hard_case_within(const char *function, const char *unit, double limit,
     return c;
 }
 
+bench_input hard_in;
+bench_output hard_out;
+
+void hard_put(int column, lobe_vec3 v) {
+    hard_in.column[column][0] = v.x;
+    hard_in.column[column + 1][0] = v.y;
+    hard_in.column[column + 2][0] = v.z;
+}
+
 void hard_cases_bench(void) {
     printf(
         "hard_cases: errors in the unit of the header's bound; printed: the formula as printed, in float with libm\n");

@@ -6,6 +6,7 @@
 #ifndef HARD_CASES_H
 #define HARD_CASES_H
 
+#include "../../sg.h"
 #include "bench.h"
 
 /* What the error is, in units: the difference, that of the logarithms, or how far a value is above the one wanted */
@@ -29,6 +30,11 @@ hard_case hard_case_of(const char *header, const char *function, const char *kin
 /* Where no tag says it */
 hard_case hard_case_within(const char *function, const char *unit, double limit, const char *name, double got,
                            double wanted);
+
+/* One element for a loop of the bench, where printed forms are */
+extern bench_input hard_in;
+extern bench_output hard_out;
+void hard_put(int column, lobe_vec3 v);
 
 void hard_sg(void);
 void hard_ggx_bound(void);

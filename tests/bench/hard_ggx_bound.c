@@ -6,18 +6,9 @@
 BENCH_DECLARE(usual_ggx_ndf);
 BENCH_DECLARE(usual_ggx_brdf_cos);
 
-static bench_input in;
-static bench_output out;
-
-static void put(int column, lobe_vec3 v) {
-    in.column[column][0] = v.x;
-    in.column[column + 1][0] = v.y;
-    in.column[column + 2][0] = v.z;
-}
-
 static double printed(bench_loop *loop) {
-    loop(&in, &out);
-    return (double)out.column[0][0];
+    loop(&hard_in, &hard_out);
+    return (double)hard_out.column[0][0];
 }
 
 /* In the plane that two angles tell: from the normal, and around it */
@@ -48,9 +39,9 @@ static void distribution(const char *name, double alpha, double angle) {
     const float a = (float)alpha;
     const lobe_vec3 n = lobe_vector(0, 0, 1), h = narrow(at(angle, 0.7));
     double wanted = density(unit(wide(h)), wide(n), (double)a);
-    put(VPL_FRONT, n);
-    put(VPL_OUT, h);
-    in.column[VPL_ALPHA_X][0] = a;
+    hard_put(VPL_FRONT, n);
+    hard_put(VPL_OUT, h);
+    hard_in.column[VPL_ALPHA_X][0] = a;
     hard_case_row_printed(hard_case_of("ggx_bound.h", "ggx_ndf", "angular", name, (double)ggx_ndf(h, n, a), wanted,
                                        wanted * (1 + 1 / (double)a) * TEST_EPSILON),
                           printed(usual_ggx_ndf_scalar));
@@ -68,10 +59,10 @@ static void reflect(const char *name, double alpha, double incidence, double out
                                wanted, unit_of);
     c.error = HARD_LOGARITHM;
     hard_case_row(c);
-    put(VPL_FRONT, n);
-    put(VPL_TO_LIGHT, wi);
-    put(VPL_OUT, wo);
-    in.column[VPL_ALPHA_X][0] = a;
+    hard_put(VPL_FRONT, n);
+    hard_put(VPL_TO_LIGHT, wi);
+    hard_put(VPL_OUT, wo);
+    hard_in.column[VPL_ALPHA_X][0] = a;
     c = hard_case_of("ggx_bound.h", "ggx_brdf_cos_separable", "angular", name,
                      (double)ggx_brdf_cos_separable(n, wi, wo, a), brdf_cos(wide(n), i, o, (double)a, 0), unit_of);
     c.error = HARD_LOGARITHM;

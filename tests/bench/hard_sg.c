@@ -16,26 +16,17 @@ BENCH_DECLARE(printed_vsgl_diffuse);
 BENCH_DECLARE(printed_vsl);
 BENCH_DECLARE(constant_cosine);
 
-static bench_input in;
-static bench_output out;
-
-static void put(int column, lobe_vec3 v) {
-    in.column[column][0] = v.x;
-    in.column[column + 1][0] = v.y;
-    in.column[column + 2][0] = v.z;
-}
-
 static double ran(bench_loop *loop, int column) {
-    loop(&in, &out);
-    return (double)out.column[column][0];
+    loop(&hard_in, &hard_out);
+    return (double)hard_out.column[column][0];
 }
 
 /* Of two lobes, or of a lobe and a direction */
 static double printed(bench_loop *loop, int column, sg_lobe a, sg_lobe b) {
-    put(LOBE_A, a.axis);
-    in.column[LOBE_A + 3][0] = a.sharpness;
-    put(LOBE_B, b.axis);
-    in.column[LOBE_B + 3][0] = b.sharpness;
+    hard_put(LOBE_A, a.axis);
+    hard_in.column[LOBE_A + 3][0] = a.sharpness;
+    hard_put(LOBE_B, b.axis);
+    hard_in.column[LOBE_B + 3][0] = b.sharpness;
     return ran(loop, column);
 }
 
@@ -80,12 +71,12 @@ static void draw(const char *name, double sharpness) {
     double l = (double)g.sharpness, share[2];
     lobe_vec3 w = sg_sample(g, u, 0.25f);
     int k;
-    in.column[UNIFORM_U][0] = u;
-    in.column[UNIFORM_V][0] = 0.25f;
+    hard_in.column[UNIFORM_U][0] = u;
+    hard_in.column[UNIFORM_V][0] = 0.25f;
     printed(printed_sample_scalar, 0, g, g);
     for (k = 0; k < 2; k++) { /* of the lobe, within the direction's angle */
         double chord;
-        if (k) w = lobe_vector(out.column[0][0], out.column[1][0], out.column[2][0]);
+        if (k) w = lobe_vector(hard_out.column[0][0], hard_out.column[1][0], hard_out.column[2][0]);
         chord = distance(unit(wide(w)), unit(wide(g.axis)));
         share[k] = expm1(-0.5 * l * chord * chord) / expm1(-2 * l);
     }
@@ -144,9 +135,9 @@ static void reflect(const char *name, double alpha, double incidence) {
     const float a = (float)alpha;
     lobe_vec3 normal = narrow(skew()), wi = narrow(off(skew(), acos(incidence)));
     double c = dot(unit(wide(normal)), unit(wide(wi))), wanted = 1 / (2 * (double)a * (double)a * c);
-    put(VPL_NORMAL, normal);
-    put(VPL_WI, wi);
-    in.column[VPL_ALPHA][0] = a;
+    hard_put(VPL_NORMAL, normal);
+    hard_put(VPL_WI, wi);
+    hard_in.column[VPL_ALPHA][0] = a;
     hard_case_row_printed(hard_case_of("sg.h", "sg_reflection_lobe", "ulp", name,
                                        (double)sg_ggx_lobe(normal, wi, a).sharpness, wanted, test_ulp(wanted) / c),
                           ran(printed_ggx_lobe_scalar, 3));
@@ -184,7 +175,7 @@ static void sharpness_of_two(const char *name, double alpha) {
     const float a = (float)alpha;
     const vsgl_cluster c = vsgl_cluster_from_vpl(none, normal, normal, none, one, a);
     const double wanted = 1 / (2 * (double)a * (double)a);
-    in.column[LOBE_A + 3][0] = (float)wanted / ((float)wanted + 1); /* the mean's length */
+    hard_in.column[LOBE_A + 3][0] = (float)wanted / ((float)wanted + 1); /* the mean's length */
     hard_case_row_printed(hard_case_of("sg.h", "vsgl_cluster_merge", "sharpness", name,
                                        (double)vsgl_from_cluster(vsgl_cluster_merge(c, c)).emission[1].sharpness,
                                        wanted, wanted),
@@ -205,13 +196,13 @@ static void light_up(const char *name, double alpha, double far_away, double spr
     light.emission[0] = light.emission[1] = emission;
     light.intensity[0] = light.intensity[1] = lobe_vector(1, 1, 1);
     wanted = exact_integral(p.sharpness) / (2 * REFERENCE_PI * v) / REFERENCE_PI;
-    put(VPL_POSITION, light.position);
-    put(VPL_NORMAL, normal);
-    put(VPL_WI, normal);
-    put(VPL_POINT, place);
-    put(VPL_FACING, lobe_vector(0, 0, -1));
-    in.column[VPL_ALPHA][0] = a;
-    in.column[VPL_VARIANCE][0] = (float)spread;
+    hard_put(VPL_POSITION, light.position);
+    hard_put(VPL_NORMAL, normal);
+    hard_put(VPL_WI, normal);
+    hard_put(VPL_POINT, place);
+    hard_put(VPL_FACING, lobe_vector(0, 0, -1));
+    hard_in.column[VPL_ALPHA][0] = a;
+    hard_in.column[VPL_VARIANCE][0] = (float)spread;
     hard_case_row_printed(hard_case_of("sg.h", "vsgl_diffuse", "conditioned", name,
                                        (double)vsgl_diffuse(light, VSGL_SPECULAR, place, lobe_vector(0, 0, -1)), wanted,
                                        wanted * TEST_EPSILON),
@@ -222,9 +213,9 @@ static void solid_angle(const char *name, double away) {
     const float d = (float)away;
     double sine = 1 / (double)d, c = sqrt((1 - sine) * (1 + sine)), wanted = 2 * (1 + c) / (sine * sine);
     const lobe_vec3 center = lobe_vector(0, 0, 0), place = lobe_vector(0, 0, d);
-    put(VPL_POSITION, center);
-    put(VPL_POINT, place);
-    in.column[VPL_VARIANCE][0] = 1;
+    hard_put(VPL_POSITION, center);
+    hard_put(VPL_POINT, place);
+    hard_in.column[VPL_VARIANCE][0] = 1;
     hard_case_row_printed(hard_case_of("sg.h", "vsl_lobe", "conditioned", name,
                                        (double)vsl_lobe(center, 1, place).sharpness, wanted,
                                        wanted * (1 + 1 / c) * TEST_EPSILON),
