@@ -450,7 +450,8 @@ LOBE_API lobe_vec3 lobe_ggx_across(lobe_vec3 normal, lobe_vec3 wi, lobe_vec3 u) 
 }
 
 /* r for a slope sqrt(c^2 + a^2 s^2); a wi below the horizon, by more than rounding, sends no light out. What rounding
-   of directions adds to c and the slope, which at grazing angles are as small as alpha, is taken off. */
+   of directions adds to c and the slope, which at grazing angles are as small as alpha, is taken off: in all at most
+   1e-6   [bound lobe_ggx_range taken 1e-6] */
 LOBE_API float lobe_ggx_range(lobe_vec3 normal, lobe_vec3 wi, float slope, float flux, float fresnel_max, float delta,
                               float xi) {
     float c = lobe_dot(normal, wi), divisor = 2 * LOBE_PI * (lobe_at_least(c, 0) + slope - 8e-7f);
@@ -459,7 +460,8 @@ LOBE_API float lobe_ggx_range(lobe_vec3 normal, lobe_vec3 wi, float slope, float
     return ggx_range(power / divisor, delta, xi);
 }
 
-/* Grows an ellipsoid on all sides by what rounding may take; extent: how far from the position it reaches. */
+/* Grows an ellipsoid on all sides by what rounding may take, 8 2^-24 of the extent: how far the position is from 0, and
+   the ellipsoid from it; its least radius by no more than 11.4   [bound lobe_ggx_pad growth 11.4] */
 LOBE_API void lobe_ggx_pad(ggx_ellipsoid *e, float extent) {
     float t = 4.76837158e-7f * extent + 1e-12f, *r = e->radius;
     float m = lobe_at_least(lobe_at_most(lobe_at_most(r[0], r[1]), r[2]), t), factor = 1 + t / m, more = m * t;
@@ -507,12 +509,12 @@ LOBE_API ggx_ellipsoid ggx_bound_spheroid(lobe_vec3 position, lobe_vec3 normal, 
     return lobe_ggx_ellipsoid_of(position, u, w, (1 - a) * (1 + a) * inverse * r, (1 + a * a) * inverse * r, r, r);
 }
 
-/* d = 1 - eta^2 in (eps / 2, 1] for which the ellipsoid is about smallest, eps = 1 - e, h = e sin^2: within .3 % in the
-   mean and 2 % of the best. Any d in that interval gives a bound.
-   [bound lobe_ggx_tightness mean .003] [bound lobe_ggx_tightness worst .02] */
-LOBE_API float lobe_ggx_tightness(float h, float eps, float c2, float s) {
-    float t = eps * (5 * h + 4 * c2) * s, root = sqrtf(t * t + 128 * eps * c2 * h * (h + c2));
-    float q = 4 * h * s / lobe_at_least(t + root, LOBE_TINY), q2 = q * q; /* at most .4 / eps, so d at least .99 eps */
+/* d = 1 - eta^2 in (eps / 2, 1] for which the ellipsoid is about smallest, eps = 1 - e: within .1 % in the mean and .4 %
+   of the best, a fit. Any d in that interval gives a bound; this one is at least .98 eps.
+   [bound lobe_ggx_tightness mean .001] [bound lobe_ggx_tightness worst .004] */
+LOBE_API float lobe_ggx_tightness(float eps, float c2, float s) {
+    float t = 4.5f * eps * s, root = sqrtf(t * t + 120 * eps * c2);
+    float q = 4 * (1 - eps * eps * eps) * s / lobe_at_least(t + root, LOBE_TINY), q2 = q * q;
     return 1 / sqrtf(sqrtf(1 + q2 * q2));
 }
 
@@ -524,10 +526,10 @@ LOBE_API float lobe_ggx_tightness(float h, float eps, float c2, float s) {
 
    Rounding: covered, as in ggx_bound_spheroid
    Model:    a bound. Volume over that of the spheroid at most, for incidence at 30, 60, 85 degrees:
-             .879, .539, .146 at alpha .05; .900, .652, .361 at alpha .2
+             .879, .539, .145 at alpha .05; .897, .646, .360 at alpha .2
              [bound ggx_bound_ellipsoid volume_05_30 .879] [bound ggx_bound_ellipsoid volume_05_60 .539]
-             [bound ggx_bound_ellipsoid volume_05_85 .146] [bound ggx_bound_ellipsoid volume_20_30 .901]
-             [bound ggx_bound_ellipsoid volume_20_60 .652] [bound ggx_bound_ellipsoid volume_20_85 .361]
+             [bound ggx_bound_ellipsoid volume_05_85 .145] [bound ggx_bound_ellipsoid volume_20_30 .897]
+             [bound ggx_bound_ellipsoid volume_20_60 .646] [bound ggx_bound_ellipsoid volume_20_85 .360]
    Source:   derived for this library, see the top: with d = 1 - eta^2, eps = 1 - e, g = d (2 - eps) / (2 d - eps),
              K = 1 + e s^2 (1 + eta) / (1 + eta cos 2 theta), where 1 + eta cos 2 theta = d / (1 + eta) + 2 eta c^2:
              radii (a + 1 / a) g r / 2, sqrt(g) r, sqrt(g / K) r, center at r / a less the first
@@ -537,7 +539,7 @@ LOBE_API ggx_ellipsoid ggx_bound_ellipsoid(lobe_vec3 position, lobe_vec3 normal,
     float a = lobe_ggx_alpha(alpha), a2 = a * a, eps = 2 * a2 / (1 + a2), e = (1 - a) * (1 + a) / (1 + a2);
     float c = lobe_ggx_cosine(normal, wi), s = lobe_ggx_sine(normal, wi), c2 = c * c, h = e * (s * s);
     float r = lobe_ggx_range(normal, wi, lobe_ggx_slope(c, a), flux, fresnel_max, delta, xi);
-    float d = lobe_ggx_tightness(h, eps, c2, s), eta, g, k, ru, side;
+    float d = lobe_ggx_tightness(eps, c2, s), eta, g, k, ru, side;
     lobe_vec3 u = lobe_ggx_mirror(normal, wi), w = lobe_ggx_across(normal, wi, u);
     eta = sqrtf(1 - d);
     k = 1 + h * (1 + eta) / (d / (1 + eta) + 2 * eta * c2);
@@ -581,6 +583,8 @@ LOBE_API float lobe_ggx_form_merit(lobe_ggx_form q) {
    Model:    a bound; that of ggx_bound_ellipsoid for alpha_x = alpha_y. Volume, in the geometric mean over incidence
              and alphas of .02 to 1, at most .262 of that of the larger alpha's spheroid moved to where it is a bound
              [bound ggx_bound_ellipsoid_aniso volume .262 over .02 1]
+             Over the least that some d gives: 1 % in the mean, .55 at most
+             [bound ggx_bound_ellipsoid_aniso mean .01] [bound ggx_bound_ellipsoid_aniso worst .55]
    Source:   derived for this library. D of the larger alpha is no bound, since its peak is lower. With R = r /
              sqrt(a_x a_y), X = diag(1 / a_x^2 - 1, 1 / a_y^2 - 1) turned into the tangential frame (in the plane of
              incidence, w), m = |p| wi + p and l = |p| + wi.p, the region is |p| + m.X m / (2 l) <= R, where m_t^2 + c^2
@@ -594,7 +598,7 @@ LOBE_API ggx_ellipsoid ggx_bound_ellipsoid_aniso(lobe_vec3 position, lobe_vec3 n
                                                  float alpha_x, float alpha_y, float flux, float fresnel_max,
                                                  float delta, float xi) {
     float ax = lobe_ggx_alpha(alpha_x), ay = lobe_ggx_alpha(alpha_y), xx, xy, cosine, sine, x11, x22, x12, det;
-    float c2, b, difference, kappa, c1, c2_rest, l2, eps, h, d, least, r, level, apart, root, turn, turn_cos, merit;
+    float c2, b, difference, kappa, c1, c2_rest, l2, eps, d, least, r, level, apart, root, turn, turn_cos, merit;
     float first, second, along, aside, size, ev, ew;
     int better;
     lobe_ggx_form q, other;
@@ -608,9 +612,6 @@ LOBE_API ggx_ellipsoid ggx_bound_ellipsoid_aniso(lobe_vec3 position, lobe_vec3 n
     lobe_ggx_tangents(normal, tangent, &tx, &ty);
     cosine = lobe_dot(w, ty);
     sine = -lobe_dot(w, tx);
-    size = 1 / sqrtf(lobe_at_least(cosine * cosine + sine * sine, LOBE_TINY));
-    cosine *= size;
-    sine *= size;
     xx = (1 - ax) * (1 + ax) / (ax * ax);
     xy = (1 - ay) * (1 + ay) / (ay * ay);
     x11 = xx * cosine * cosine + xy * sine * sine;
@@ -632,19 +633,18 @@ LOBE_API ggx_ellipsoid ggx_bound_ellipsoid_aniso(lobe_vec3 position, lobe_vec3 n
     eps = 2 / (2 + kappa);
     ev = c1 * c;
     l2 = ev * ev + c2_rest * c2_rest;
-    h = 0.5f * eps * (c2 * c1 * c1 + c2_rest * c2_rest);
-    d = lobe_ggx_tightness(h, eps, c2, s);
+    d = lobe_ggx_tightness(eps, c2, s);
     least = lobe_at_most(1.25f * eps, d);
     q = lobe_ggx_form_of(d, eps, c2, s, c1, l2);
     merit = lobe_ggx_form_merit(q);
-    other = lobe_ggx_form_of(lobe_at_least(0.6f * d, least), eps, c2, s, c1, l2);
+    other = lobe_ggx_form_of(lobe_at_least(0.8f * d, least), eps, c2, s, c1, l2);
     better = lobe_ggx_form_merit(other) > merit;
     merit = lobe_select(better, lobe_ggx_form_merit(other), merit);
     q.uu = lobe_select(better, other.uu, q.uu);
     q.ub = lobe_select(better, other.ub, q.ub);
     q.bb = lobe_select(better, other.bb, q.bb);
     q.det = lobe_select(better, other.det, q.det);
-    other = lobe_ggx_form_of(lobe_at_least(0.35f * d, least), eps, c2, s, c1, l2);
+    other = lobe_ggx_form_of(lobe_at_least(0.5f * d, least), eps, c2, s, c1, l2);
     better = lobe_ggx_form_merit(other) > merit;
     q.uu = lobe_select(better, other.uu, q.uu);
     q.ub = lobe_select(better, other.ub, q.ub);
@@ -814,7 +814,7 @@ LOBE_API float ggx_ellipsoid_reach(ggx_ellipsoid e, lobe_vec3 direction) {
    returns    1, or 0: surely not
 
    Rounding: covered; 1 also within 32 2^-24 (|center| + largest radius) |normal| of touching
-             [bound ggx_ellipsoid_hits_half_space slack 32]
+             [bound ggx_ellipsoid_hits_half_space slack 32] [bound ggx_ellipsoid_hits_half_space growth 11]
    Model:    exact
    Source:   the support function of an ellipsoid
 */
@@ -824,12 +824,6 @@ LOBE_API int ggx_ellipsoid_hits_half_space(ggx_ellipsoid e, lobe_vec3 normal, fl
     return lobe_dot(e.center, normal) + ggx_ellipsoid_reach(e, normal) + slack >= offset;
 }
 
-/* Distance along one of the ellipsoid's axes to a box, over the radius; slack: what rounding may take from it */
-LOBE_API float lobe_ggx_gap(lobe_vec3 axis, float radius, lobe_vec3 offset, lobe_vec3 half_size, float slack) {
-    float reach = fabsf(axis.x) * half_size.x + fabsf(axis.y) * half_size.y + fabsf(axis.z) * half_size.z + slack;
-    return lobe_at_least(fabsf(lobe_dot(axis, offset)) - reach, 0) / radius;
-}
-
 /* Whether the plane across a direction surely parts an ellipsoid and a box at an offset from its center */
 LOBE_API int lobe_ggx_parted(ggx_ellipsoid e, lobe_vec3 direction, lobe_vec3 offset, lobe_vec3 half_size, float slack) {
     float size = fabsf(direction.x) + fabsf(direction.y) + fabsf(direction.z);
@@ -837,7 +831,7 @@ LOBE_API int lobe_ggx_parted(ggx_ellipsoid e, lobe_vec3 direction, lobe_vec3 off
     return fabsf(lobe_dot(direction, offset)) > box + ggx_ellipsoid_reach(e, direction) + slack * size;
 }
 
-/* Entries of sum axis axis' / radius^2, up to a factor: what the gradient of the stretched distance is made of */
+/* Entries of sum axis axis' (least radius / radius)^2: what the gradient of the stretched distance is made of */
 typedef struct lobe_ggx_metric {
     float xx, yy, zz, xy, xz, yz;
 } lobe_ggx_metric;
@@ -880,10 +874,11 @@ LOBE_API lobe_vec3 lobe_ggx_descend(lobe_ggx_metric m, lobe_vec3 p, lobe_vec3 mi
    returns    1, or 0: surely not
 
    Rounding: covered: the box is grown by 2^-20 of the sum of its distance, its size and the largest radius
+             [bound ggx_ellipsoid_hits_box growth 17.5]
    Model:    of boxes that are hit by the ellipsoid's own bounding box, but not by it, at most .5 % are not told
              [bound ggx_ellipsoid_hits_box false_hits .005]
-   Source:   003, section 5.1, the sphere in stretched space against a box there; then the planes across the coordinate
-             axes, and across the ellipsoid's gradient where three rounds of coordinate descent find the box nearest
+   Source:   derived for this library, for 003's stretched sphere: the planes across the coordinate axes, and across the
+             ellipsoid's gradient where three rounds of coordinate descent find the box nearest
 */
 LOBE_API int ggx_ellipsoid_hits_box(ggx_ellipsoid e, lobe_vec3 box_center, lobe_vec3 half_size) {
     lobe_vec3 offset = lobe_sub(box_center, e.center), p;
@@ -891,9 +886,6 @@ LOBE_API int ggx_ellipsoid_hits_box(ggx_ellipsoid e, lobe_vec3 box_center, lobe_
     float size = lobe_ggx_extent(offset) + lobe_ggx_extent(half_size) + ggx_bound_enclosing(e).radius;
     float slack = 9.53674316e-7f * size;
     int parted;
-    float x = lobe_ggx_gap(e.axis[0], e.radius[0], offset, half_size, slack);
-    float y = lobe_ggx_gap(e.axis[1], e.radius[1], offset, half_size, slack);
-    float z = lobe_ggx_gap(e.axis[2], e.radius[2], offset, half_size, slack);
     p = lobe_vector(lobe_ggx_clamp(0, offset.x, half_size.x), lobe_ggx_clamp(0, offset.y, half_size.y),
                     lobe_ggx_clamp(0, offset.z, half_size.z));
     p = lobe_ggx_descend(m, lobe_ggx_descend(m, lobe_ggx_descend(m, p, offset, half_size), offset, half_size), offset,
@@ -902,7 +894,7 @@ LOBE_API int ggx_ellipsoid_hits_box(ggx_ellipsoid e, lobe_vec3 box_center, lobe_
              lobe_ggx_parted(e, lobe_vector(0, 1, 0), offset, half_size, slack) |
              lobe_ggx_parted(e, lobe_vector(0, 0, 1), offset, half_size, slack) |
              lobe_ggx_parted(e, lobe_ggx_gradient(m, p), offset, half_size, slack);
-    return (x * x + y * y + z * z <= 1.00001f) & !parted;
+    return !parted;
 }
 
 /*
@@ -951,6 +943,30 @@ LOBE_API ggx_stretched ggx_stretch_ellipsoid(ggx_ellipsoid e) {
     return s;
 }
 
+/* Where a ray of the camera, of x/z and y/z in the stretched space's order, is at depth 1 there */
+LOBE_API lobe_vec3 lobe_ggx_ray(ggx_stretched s, float x, float y) {
+    return lobe_vector(s.xx * x + s.xy * y + s.xz, s.yy * y + s.yz, s.zz);
+}
+
+/* A tile with its sides in the stretched space's order */
+LOBE_API ggx_tile lobe_ggx_swap(ggx_stretched s, ggx_tile tile) {
+    ggx_tile t;
+    t.left = lobe_select(s.swapped, tile.bottom, tile.left);
+    t.right = lobe_select(s.swapped, tile.top, tile.right);
+    t.bottom = lobe_select(s.swapped, tile.left, tile.bottom);
+    t.top = lobe_select(s.swapped, tile.right, tile.top);
+    return t;
+}
+
+/* The sphere's radius: 1.00001 and 2^-19 of the sum of the terms that make coordinates of its center and of a frustum
+   to that depth   [bound lobe_ggx_stretched_radius growth 32.1]
+   The tile as lobe_ggx_swap has it */
+LOBE_API float lobe_ggx_stretched_radius(ggx_stretched s, ggx_tile t, float depth) {
+    float wide = lobe_max(fabsf(t.left), fabsf(t.right)), high = lobe_max(fabsf(t.bottom), fabsf(t.top));
+    float terms = s.xx * wide + (fabsf(s.xy) + s.yy) * high + fabsf(s.xz) + fabsf(s.yz) + s.zz;
+    return 1.00001f + 1.90734863e-6f * (s.size + depth * terms);
+}
+
 /* How far a number is outside of [low, high] */
 LOBE_API float lobe_ggx_outside(float low, float high, float x) {
     return lobe_at_least(lobe_at_least(low - x, x - high), 0);
@@ -969,21 +985,16 @@ LOBE_API float lobe_ggx_outside(float low, float high, float x) {
    Source:   003, section 5.2
 */
 LOBE_API int ggx_stretched_hits_tile(ggx_stretched s, ggx_tile tile, float depth0, float depth1) {
-    float left = lobe_select(s.swapped, tile.bottom, tile.left), right = lobe_select(s.swapped, tile.top, tile.right);
-    float bottom = lobe_select(s.swapped, tile.left, tile.bottom), top = lobe_select(s.swapped, tile.right, tile.top);
-    float x0 = s.xx * left + lobe_min(s.xy * bottom, s.xy * top) + s.xz;
-    float x1 = s.xx * right + lobe_max(s.xy * bottom, s.xy * top) + s.xz;
-    float y0 = s.yy * bottom + s.yz, y1 = s.yy * top + s.yz;
-    float wide = lobe_max(fabsf(left), fabsf(right)), high = lobe_max(fabsf(bottom), fabsf(top));
-    float slack =
-        1.90734863e-6f *
-            (s.size + depth1 * (s.xx * wide + (fabsf(s.xy) + s.yy) * high + fabsf(s.xz) + fabsf(s.yz) + s.zz)) +
-        1.00001f;
+    ggx_tile t = lobe_ggx_swap(s, tile);
+    float x0 = s.xx * t.left + lobe_min(s.xy * t.bottom, s.xy * t.top) + s.xz;
+    float x1 = s.xx * t.right + lobe_max(s.xy * t.bottom, s.xy * t.top) + s.xz;
+    float y0 = s.yy * t.bottom + s.yz, y1 = s.yy * t.top + s.yz;
     float x = lobe_ggx_outside(lobe_min(x0 * depth0, x0 * depth1), lobe_max(x1 * depth0, x1 * depth1), s.center.x);
     float y = lobe_ggx_outside(lobe_min(y0 * depth0, y0 * depth1), lobe_max(y1 * depth0, y1 * depth1), s.center.y);
     float z = lobe_ggx_outside(s.zz * depth0, s.zz * depth1, s.center.z);
+    float radius = lobe_ggx_stretched_radius(s, t, depth1);
     LOBE_ASSERT(depth0 >= 0 && depth1 >= depth0);
-    return x * x + y * y + z * z <= slack * slack;
+    return x * x + y * y + z * z <= radius * radius;
 }
 
 /*
@@ -1004,16 +1015,13 @@ LOBE_API int ggx_ellipsoid_hits_sides(ggx_ellipsoid e, ggx_tile tile) {
            ggx_ellipsoid_hits_half_space(e, lobe_vector(0, -1, tile.top), 0);
 }
 
-/* The point of a tile's frustum that is lowest along a direction of the stretched space, relative to the ellipsoid */
-LOBE_API lobe_vec3 lobe_ggx_support(ggx_stretched s, ggx_tile tile, float depth0, float depth1, lobe_vec3 q) {
-    float gx = s.xx * q.x, gy = s.xy * q.x + s.yy * q.y, gz = s.xz * q.x + s.yz * q.y + s.zz * q.z, x, y, z;
-    x = lobe_select(gx > 0, lobe_select(s.swapped, tile.bottom, tile.left),
-                    lobe_select(s.swapped, tile.top, tile.right));
-    y = lobe_select(gy > 0, lobe_select(s.swapped, tile.left, tile.bottom),
-                    lobe_select(s.swapped, tile.right, tile.top));
-    z = lobe_select(gx * x + gy * y + gz > 0, depth0, depth1);
-    return lobe_vector(z * (s.xx * x + s.xy * y + s.xz) - s.center.x, z * (s.yy * y + s.yz) - s.center.y,
-                       z * s.zz - s.center.z);
+/* The point of a tile's frustum that is lowest along a direction of the stretched space, relative to the ellipsoid; the
+   tile as lobe_ggx_swap has it */
+LOBE_API lobe_vec3 lobe_ggx_support(ggx_stretched s, ggx_tile t, float depth0, float depth1, lobe_vec3 q) {
+    float gx = s.xx * q.x, gy = s.xy * q.x + s.yy * q.y, gz = s.xz * q.x + s.yz * q.y + s.zz * q.z;
+    float x = lobe_select(gx > 0, t.left, t.right), y = lobe_select(gy > 0, t.bottom, t.top);
+    float z = lobe_select(gx * x + gy * y + gz > 0, depth0, depth1);
+    return lobe_sub(lobe_scale(lobe_ggx_ray(s, x, y), z), s.center);
 }
 
 /* Moves a point of the frustum towards another, to where the line is nearest to the ellipsoid's center */
@@ -1038,24 +1046,19 @@ LOBE_API lobe_vec3 lobe_ggx_nearer(lobe_vec3 q, lobe_vec3 other) {
              moves this towards the frustum's lowest point there
 */
 LOBE_API int ggx_stretched_hits_frustum(ggx_stretched s, ggx_tile tile, float depth0, float depth1) {
-    float wide = lobe_max(fabsf(tile.left), fabsf(tile.right)), high = lobe_max(fabsf(tile.bottom), fabsf(tile.top));
-    float most = lobe_max(wide, high), z = 0.5f * (depth0 + depth1), x, y, slack;
+    ggx_tile t = lobe_ggx_swap(s, tile);
+    lobe_vec3 ray = lobe_ggx_ray(s, 0.5f * (t.left + t.right), 0.5f * (t.bottom + t.top)), lowest;
+    lobe_vec3 q = lobe_sub(lobe_scale(ray, 0.5f * (depth0 + depth1)), s.center);
+    float radius = lobe_ggx_stretched_radius(s, t, depth1);
     int parted;
-    lobe_vec3 q, lowest;
-    slack = 1.00001f + 1.90734863e-6f *
-                           (s.size + depth1 * ((s.xx + fabsf(s.xy) + s.yy) * most + fabsf(s.xz) + fabsf(s.yz) + s.zz));
-    x = 0.5f * lobe_select(s.swapped, tile.bottom + tile.top, tile.left + tile.right);
-    y = 0.5f * lobe_select(s.swapped, tile.left + tile.right, tile.bottom + tile.top);
-    q = lobe_vector(z * (s.xx * x + s.xy * y + s.xz) - s.center.x, z * (s.yy * y + s.yz) - s.center.y,
-                    z * s.zz - s.center.z);
-    lowest = lobe_ggx_support(s, tile, depth0, depth1, q);
-    parted = lobe_dot(q, lowest) > slack * sqrtf(lobe_dot(q, q));
+    lowest = lobe_ggx_support(s, t, depth0, depth1, q);
+    parted = lobe_dot(q, lowest) > radius * sqrtf(lobe_dot(q, q));
     q = lobe_ggx_nearer(q, lowest);
-    lowest = lobe_ggx_support(s, tile, depth0, depth1, q);
-    parted |= lobe_dot(q, lowest) > slack * sqrtf(lobe_dot(q, q));
+    lowest = lobe_ggx_support(s, t, depth0, depth1, q);
+    parted |= lobe_dot(q, lowest) > radius * sqrtf(lobe_dot(q, q));
     q = lobe_ggx_nearer(q, lowest);
-    lowest = lobe_ggx_support(s, tile, depth0, depth1, q);
-    parted |= lobe_dot(q, lowest) > slack * sqrtf(lobe_dot(q, q));
+    lowest = lobe_ggx_support(s, t, depth0, depth1, q);
+    parted |= lobe_dot(q, lowest) > radius * sqrtf(lobe_dot(q, q));
     return !parted;
 }
 
@@ -1082,8 +1085,8 @@ LOBE_API int ggx_stretched_hits_clusters(ggx_stretched s, ggx_tile tile, const f
    position, normal  of the light, in the camera's frame
    returns           1, or 0: surely not
 
-   Rounding: covered; 1 also within 2^-19 (distance of both from the camera) of the horizon
-             [bound ggx_tile_above slack 32]
+   Rounding: covered; 1 also within 2^-20 of the sum of the terms of both heights above the horizon
+             [bound ggx_tile_above slack 32] [bound ggx_tile_above growth 18]
    Model:    exact
    Source:   derived for this library: a plane and the frustum's corners
 */

@@ -134,7 +134,8 @@ static void test_ndf(void) {
         within(&iso, (double)ggx_ndf(h, n, ax), wanted, wanted * angular((double)ax) + DBL_MIN);
         wanted = exact_ndf_aniso(hh, nn, tt, (double)ax, (double)ay);
         within(&aniso, (double)ggx_ndf_aniso(h, n, t, ax, ay), wanted, wanted * angular(least) + DBL_MIN);
-        that(ggx_ndf(lobe_scale(n, -1), n, ax) == 0, "no facets from below");
+        that(ggx_ndf(lobe_scale(n, -1), n, ax) == 0 && ggx_ndf_aniso(lobe_scale(n, -1), n, t, ax, ay) == 0,
+             "no facets from below");
     }
     test_report(&iso);
     test_report(&aniso);
@@ -333,6 +334,35 @@ static double stretched_squared(const ggx_ellipsoid *e, vec p) {
         sum += x * x;
     }
     return sum;
+}
+
+static double covariance(const ggx_ellipsoid *e, vec a, vec b) { /* a.(K r^2 K').b */
+    double sum = 0;
+    int k;
+    for (k = 0; k < 3; k++)
+        sum += (double)e->radius[k] * (double)e->radius[k] * dot(wide(e->axis[k]), a) * dot(wide(e->axis[k]), b);
+    return sum;
+}
+
+static ggx_ellipsoid random_ellipsoid(double size, double ratio) {
+    ggx_ellipsoid e;
+    vec u = random_direction(), v = perpendicular(u);
+    e.center = lobe_vector(0, 0, 0);
+    e.axis[0] = narrow(u);
+    e.axis[1] = narrow(v);
+    e.axis[2] = narrow(cross(u, v));
+    e.radius[0] = float_of(size);
+    e.radius[1] = float_of(size * log_uniform(ratio, 1));
+    e.radius[2] = float_of(size * log_uniform(ratio, 1));
+    return e;
+}
+
+static void record_ellipsoid(const ggx_ellipsoid *e) {
+    int k;
+    begin();
+    record_vector(e->center);
+    for (k = 0; k < 3; k++) record_vector(e->axis[k]);
+    for (k = 0; k < 3; k++) record((double)e->radius[k]);
 }
 
 /* Whether a point is accepted with a form of masking, in double; in float, by the library itself */
@@ -537,6 +567,128 @@ static light tilted(double degrees, double alpha) {
     return l;
 }
 
+static double least_radius(const ggx_ellipsoid *e) {
+    return fmin(fmin((double)e->radius[0], (double)e->radius[1]), (double)e->radius[2]);
+}
+
+static double extent_of(vec v) {
+    return fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
+}
+
+/* On all sides by what is stated, where that is much more than rounding of the radii */
+static void test_pad(void) {
+    test_bound growth = bound_of("lobe_ggx_pad", "growth");
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-2, 1e4), 1e-5), grown;
+        float extent = float_of((double)e.radius[0] * log_uniform(100, 1e6));
+        double unit = TEST_EPSILON * (double)extent;
+        float swap = e.radius[0];
+        k = pick(3);
+        e.radius[0] = e.radius[k];
+        e.radius[k] = swap;
+        grown = e;
+        lobe_ggx_pad(&grown, extent);
+        record_ellipsoid(&e);
+        record((double)extent);
+        within(&growth, least_radius(&grown), least_radius(&e), unit);
+        for (k = 0; k < 4; k++) {
+            vec way = k < 3 ? wide(e.axis[k]) : random_direction();
+            double more = sqrt(covariance(&grown, way, way)) - sqrt(covariance(&e, way, way));
+            that(more >= 7.9 * unit, "an ellipsoid grows on all sides");
+        }
+    }
+    test_report(&growth);
+}
+
+/* At grazing angles the range takes 8e-7 off the cosine and the slope, which has to outweigh their rounding. */
+static void test_grazing_range(void) {
+    test_bound taken = bound_of("lobe_ggx_range", "taken");
+    int i;
+    for (i = 0; i < 50000; i++) {
+        lobe_vec3 normal = nearly_unit(random_direction()), wi;
+        double alpha = (double)(float)log_uniform(1e-4, 1e-2), c, r, divisor;
+        vec n = unit(wide(normal));
+        c = log_uniform(1e-5, 1e-2);
+        wi = nearly_unit(towards(n, perpendicular(n), acos(c)));
+        c = dot(n, unit(wide(wi)));
+        begin();
+        record_vector(normal);
+        record_vector(wi);
+        record(alpha);
+        r = (double)lobe_ggx_range(normal, wi, lobe_ggx_slope(lobe_ggx_cosine(normal, wi), (float)alpha), 1, 1, 1, .5f);
+        divisor = c + sqrt(alpha * alpha + (1 - alpha * alpha) * c * c);
+        r = divisor - 1 / (2 * PI * .5 * r * r);
+        within(&taken, r, 0, 1 + 16 * TEST_EPSILON * divisor / 8e-7);
+        that(r > 0, "no range is less than exact");
+        wi = narrow(towards(n, perpendicular(n), PI / 2 + log_uniform(3e-6, 1)));
+        record_vector(wi);
+        that(lobe_ggx_range(normal, wi, 1, 1, 1, 1, 1) == 0, "below the horizon no light");
+        wi = narrow(towards(n, perpendicular(n), PI / 2 + 4e-7 * uniform()));
+        record_vector(wi);
+        that(lobe_ggx_range(normal, wi, 1, 1, 1, 1, 1) > 0, "below the horizon by rounding");
+    }
+    test_report(&taken);
+}
+
+/* What the volumes are grown by: of the same light here and far away; of a long ellipsoid, by its length */
+static void test_padding(void) {
+    test_bound place = stated("what a bound grows by, of the position", 9), along = stated("of its length", 9);
+    test_bound diffuse = stated("what a diffuse bound grows by, of twice the range", 9);
+    int i, k;
+    for (i = 0; i < 3000; i++) {
+        light l = tilted(80 * uniform(), log_uniform(.003, .01)), far;
+        vec turn = random_direction(), side = perpendicular(turn), n = turn, wi;
+        double a = (double)l.alpha_x, c, s, r, reach, unit;
+        float albedo = .5f;
+        wi = combine((double)l.wi.z, n, (double)l.wi.x, side);
+        l.normal = narrow(n);
+        l.wi = narrow(wi);
+        l.tangent = narrow(perpendicular(n));
+        widen(&l);
+        far = l;
+        far.position = narrow(combine(log_uniform(1e5, 1e6), random_direction(), 0, n));
+        widen(&far);
+        c = dot(l.n, l.i);
+        s = length(cross(l.n, l.i));
+        r = sqrt((double)l.flux / (2 * PI * (double)l.delta * (double)l.xi * (c + exact_slope(l.i, l.n, l.t, a, a))));
+        reach = r / a;
+        record_light(&far);
+        for (k = 0; k <= AT_LIGHT; k++) {
+            ggx_ellipsoid here = volume_of(&l, (volume)k), there = volume_of(&far, (volume)k);
+            unit = TEST_EPSILON * extent_of(far.q);
+            within(&place, least_radius(&there), least_radius(&here), unit);
+            that(least_radius(&there) - least_radius(&here) >= 7.5 * unit, "grows by the position");
+            if (k == AT_LIGHT) continue;
+            unit = TEST_EPSILON * reach;
+            if (k != SPHEROID) { /* its least radius, as the family has it */
+                double eps = 2 * a * a / (1 + a * a), h = (1 - eps) * s * s, eta, d;
+                d = (double)lobe_ggx_tightness((float)eps, (float)(c * c), (float)s);
+                eta = sqrt(1 - d);
+                r = reach * a * sqrt(d * (2 - eps) / (2 * d - eps));
+                r /= sqrt(1 + h * (1 + eta) / (d / (1 + eta) + 2 * eta * c * c));
+            }
+            within(&along, least_radius(&here), r, unit);
+            that(least_radius(&here) - r >= 7.5 * unit, "grows by its length");
+        }
+        {
+            ggx_sphere here = ggx_bound_diffuse(l.position, l.normal, l.flux, albedo, l.delta, l.xi);
+            ggx_sphere there = ggx_bound_diffuse(far.position, l.normal, l.flux, albedo, l.delta, l.xi);
+            unit = TEST_EPSILON * extent_of(far.q);
+            within(&place, (double)there.radius, (double)here.radius, unit);
+            that((double)(there.radius - here.radius) >= 7.5 * unit, "grows by the position");
+            r = (double)lobe_ggx_diffuse_range(l.flux, albedo, l.delta, l.xi);
+            unit = TEST_EPSILON * 2 * r;
+            r *= pow(4 / 27., .25);
+            within(&diffuse, (double)here.radius, r, unit);
+            that((double)here.radius - r >= 7 * unit, "the diffuse sphere grows by its size");
+        }
+    }
+    test_report(&place);
+    test_report(&along);
+    test_report(&diffuse);
+}
+
 /* Volumes of the ellipsoid over the spheroid's, and that the anisotropic one with equal alphas is the same */
 static void test_volumes(void) {
     static const double degrees[] = {0, 15, 30, 45, 60, 75, 85, 89};
@@ -589,8 +741,7 @@ static void test_tightness(void) {
     int i, k;
     for (i = 0; i < 2000; i++) {
         double a = log_uniform(0.01, 1), c = uniform(), eps = 2 * a * a / (1 + a * a), best = 1, loss;
-        double h = (1 - eps) * (1 - c * c);
-        float d = lobe_ggx_tightness((float)h, (float)eps, (float)(c * c), (float)sqrt(1 - c * c));
+        float d = lobe_ggx_tightness((float)eps, (float)(c * c), (float)sqrt(1 - c * c));
         for (k = 0; k <= 2000; k++) best = fmin(best, family_volume(a, c, pow(0.51 * eps, k / 2000.0)));
         loss = family_volume(a, c, (double)d) / best - 1;
         begin();
@@ -605,12 +756,37 @@ static void test_tightness(void) {
     test_report(&worst);
 }
 
+/* Least volume over the bounds for all d, of a range sqrt(alpha_x alpha_y), in double: the header's derivation anew, for
+   a light at azimuth phi of the tangent */
+static double family_volume_aniso(double ax, double ay, double c, double phi) {
+    double xx = 1 / (ax * ax) - 1, yy = 1 / (ay * ay) - 1, s2 = 1 - c * c, c2 = c * c, best = DBL_MAX;
+    double x11 = xx * cos(phi) * cos(phi) + yy * sin(phi) * sin(phi), x22 = xx + yy - x11;
+    double b = x11 * c2 + x22;
+    double kappa = 2 * xx * yy / (b + sqrt(fmax(b * b - 4 * c2 * xx * yy, 0))); /* det(X - kappa diag(1, c^2)) = 0 */
+    double along = fmax(x11 - kappa, 0), across = fmax(x22 - kappa * c2, 0), eps = 2 / (2 + kappa);
+    double l2 = along * c2 + across;
+    int k;
+    for (k = 0; k <= 400; k++) {
+        double d = pow(0.501 * eps, k / 400.0), eta = sqrt(1 - d), om = d / (1 + eta);
+        double t = 0.5 * eps * (1 + eta) / (om + 2 * eta * c2), sg = d + t * om * om * along * s2;
+        double uu = eps * (2 - eps / sg), bb = 1 + t * d / sg * l2,
+               ub2 = eps * eps * t * t * om * om * along * s2 * l2 / (sg * sg);
+        double det = uu * bb - ub2, level = eps * sqrt(bb / det);
+        best = fmin(best, level * level * level / sqrt(det));
+    }
+    return best;
+}
+
 /* The corrected spheroid of the larger alpha: its range times the larger alpha over the mean one */
 static void test_volumes_aniso(void) {
     test_bound mean = bound_of("ggx_bound_ellipsoid_aniso", "volume");
-    double sum = 0, squares = 0, chance;
+    test_bound mean_loss = bound_of("ggx_bound_ellipsoid_aniso", "mean");
+    test_bound worst_loss = bound_of("ggx_bound_ellipsoid_aniso", "worst");
+    double sum = 0, squares = 0, chance, losses = 0;
     int i;
     for (i = 0; i < 4000; i++) {
+        double loss;
+        vec across;
         light l = tilted(0, 1);
         double c, most, r, ratio;
         ggx_ellipsoid e;
@@ -626,13 +802,24 @@ static void test_volumes_aniso(void) {
         r *= most / sqrt((double)l.alpha_x * (double)l.alpha_y);
         e = volume_of(&l, ANISOTROPIC);
         ratio = log(volume_size(e) / (r * r * r * (1 + most * most) / (2 * most)));
+        r /= most;
+        across = unit(cross(l.n, l.i));
+        loss = family_volume_aniso((double)l.alpha_x, (double)l.alpha_y, dot(l.n, l.i),
+                                   atan2(-dot(across, l.t), dot(across, cross(l.n, l.t))));
+        loss = volume_size(e) / (r * r * r) / loss - 1;
+        record_light(&l);
+        within(&worst_loss, loss, 0, 1);
+        losses += loss;
         sum += ratio / 4000;
         squares += ratio * ratio / 4000;
     }
     begin();
     chance = 4.5 * sqrt((squares - sum * sum) / 4000); /* standard errors of the mean */
     within(&mean, exp(sum - chance), 0, 1);
+    within(&mean_loss, losses / 4000, 0, 1);
     test_report(&mean);
+    test_report(&mean_loss);
+    test_report(&worst_loss);
 }
 
 /* Diffuse: the region is a curve turned about the normal, |p| = R sqrt(cos). */
@@ -704,6 +891,7 @@ static void test_accept(void) {
     begin();
     that(ggx_xi(0) == 0x1p-24f && ggx_xi(0xFFFFFFFFu) == 1 - 0x1p-24f, "ends of the random numbers");
     that(ggx_accept_probability(1, 0, .1f) == 1 && ggx_accept_probability(0, 0, .1f) == 0, "probability at the light");
+    that(ggx_range(1e-10f, 1e-20f, .5f) == ggx_range(1e-10f, 1e-18f, .5f), "delta counts as 1e-18");
     that(ggx_accept_weight(0, 0) == 0 && ggx_estimate(0, 1, .1f, 0) == 0, "no light is never accepted");
     that(test_is_finite(ggx_estimate(1e18f, 0, .1f, .5f)) && ggx_estimate(1, 0, .1f, .5f) > 0, "estimate at the light");
     for (i = 0; i < 1000; i++) { /* above, not at */
@@ -711,6 +899,7 @@ static void test_accept(void) {
         begin();
         record((double)p);
         that(ggx_accept_weight(p, p) == 0 && ggx_accept_weight(p + 0x1p-22f, p) > 0, "accepted above xi");
+        that(ggx_estimate(p, 1, 1, p) == 0 && ggx_estimate(p + 0x1p-22f, 1, 1, p) == 1, "estimated above xi");
     }
     test_report(&probability);
     test_report(&range);
@@ -750,6 +939,8 @@ static void test_fresnel(void) {
         record_vector(narrow(n));
         record_vector(narrow(wi));
         within(&ulp, (double)ggx_fresnel(f0, c), wanted, test_ulp(wanted));
+        that(ggx_fresnel(f0, 1 + 100 * c) == f0 && ggx_fresnel(f0, -c) == ggx_fresnel(f0, 0),
+             "a cosine counts as 0 to 1");
         if (pick(2)) { /* on the far side, in the plane of incidence, near the horizon */
             mirror = unit(combine(1, n, -1 / fmax(ci, 1e-9), wi));
             wo = unit(combine(log_uniform(1e-9, 1), n, 1, mirror));
@@ -971,7 +1162,7 @@ static void test_tangents_near(void) {
     test_bound same = stated("as the perpendicular tangent", 2e-3);
     int i;
     for (i = 0; i < 20000; i++) {
-        lobe_vec3 normal, h, tangent, other;
+        lobe_vec3 normal, h, tangent, other, x, y;
         double angle;
         float ax, ay, wanted;
         vec n, t;
@@ -991,6 +1182,10 @@ static void test_tangents_near(void) {
         record_vector(other = nearly_unit(towards(n, perpendicular(n), angle)));
         wanted = ggx_ndf_aniso(h, normal, other, ax, ay);
         within(&same, (double)ggx_ndf_aniso(h, normal, tangent, ax, ay), (double)wanted, (double)wanted);
+        lobe_ggx_tangents(normal, tangent, &x, &y);
+        that(fabs(length(wide(x)) - 1) < 1e-6 && fabs(dot(wide(x), n)) < 1e-6 &&
+                 distance(wide(y), cross(n, wide(x))) < 1e-6,
+             "two tangents");
     }
     test_report(&same);
 }
@@ -1027,14 +1222,6 @@ typedef struct {
     vec face[6];
     double offset[6];
 } body;
-
-static double covariance(const ggx_ellipsoid *e, vec a, vec b) { /* a.(K r^2 K').b */
-    double sum = 0;
-    int k;
-    for (k = 0; k < 3; k++)
-        sum += (double)e->radius[k] * (double)e->radius[k] * dot(wide(e->axis[k]), a) * dot(wide(e->axis[k]), b);
-    return sum;
-}
 
 static vec covariance_times(const ggx_ellipsoid *e, vec a) {
     vec sum = of(0, 0, 0);
@@ -1097,27 +1284,6 @@ static double body_distance(const ggx_ellipsoid *e, const body *b, double slack)
                 least = fmin(least, stretched_squared(e, p));
             }
     return least;
-}
-
-static ggx_ellipsoid random_ellipsoid(double size, double ratio) {
-    ggx_ellipsoid e;
-    vec u = random_direction(), v = perpendicular(u);
-    e.center = lobe_vector(0, 0, 0);
-    e.axis[0] = narrow(u);
-    e.axis[1] = narrow(v);
-    e.axis[2] = narrow(cross(u, v));
-    e.radius[0] = float_of(size);
-    e.radius[1] = float_of(size * log_uniform(ratio, 1));
-    e.radius[2] = float_of(size * log_uniform(ratio, 1));
-    return e;
-}
-
-static void record_ellipsoid(const ggx_ellipsoid *e) {
-    int k;
-    begin();
-    record_vector(e->center);
-    for (k = 0; k < 3; k++) record_vector(e->axis[k]);
-    for (k = 0; k < 3; k++) record((double)e->radius[k]);
 }
 
 static double component(vec v, int k) {
@@ -1475,6 +1641,198 @@ static void test_tiles_far(void) {
     }
 }
 
+/* The sphere of the stretched space grows by all of its terms, and by no more; along depth, that is what a tile's test
+   and a frustum's do. */
+static void test_stretched_radius(void) {
+    test_bound growth = bound_of("lobe_ggx_stretched_radius", "growth");
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-4, 1), 1e-2);
+        ggx_tile t;
+        ggx_stretched s;
+        float depth = float_of(log_uniform(1e2, 1e5));
+        double most = 0, got;
+        t.left = float_of(2 * uniform() - 1);
+        t.right = float_of(2 * uniform() - 1);
+        t.bottom = float_of(2 * uniform() - 1);
+        t.top = float_of(2 * uniform() - 1);
+        e.center = narrow(combine(log_uniform(1e2, 1e5), random_direction(), 0, random_direction()));
+        s = ggx_stretch_ellipsoid(e);
+        t = lobe_ggx_swap(s, t);
+        record_ellipsoid(&e);
+        record_tile(t, 0, depth);
+        for (k = 0; k < 4; k++) {
+            double x = (double)(k & 1 ? t.left : t.right), y = (double)(k & 2 ? t.bottom : t.top);
+            most = fmax(most, fabs((double)s.xx * x) + fabs((double)s.xy * y) + fabs((double)s.yy * y) +
+                                  fabs((double)s.xz) + fabs((double)s.yz) + fabs((double)s.zz));
+        }
+        got = (double)lobe_ggx_stretched_radius(s, t, depth) - 1;
+        most = TEST_EPSILON * ((double)s.size + (double)depth * most);
+        within(&growth, got, 1e-5, most + 2 * TEST_EPSILON);
+        that(got >= 1e-5 + 31.9 * most - 2 * TEST_EPSILON, "the sphere grows by all terms");
+    }
+    test_report(&growth);
+}
+
+/* A sphere before or behind a tile, where it is touched along depth, and a little further */
+static void test_tiles_in_depth(void) {
+    int i;
+    for (i = 0; i < 20000; i++) {
+        float r = float_of(log_uniform(1e-2, 1)), depth0 = float_of(log_uniform(1, 10)), at;
+        float depth1 = float_of((double)depth0 * log_uniform(1.01, 10));
+        ggx_sphere ball;
+        ggx_ellipsoid e;
+        ggx_stretched s;
+        ggx_tile t;
+        int before = pick(2), k;
+        t.left = t.bottom = -1;
+        t.right = t.top = 1;
+        ball.radius = r;
+        for (k = 0; k < 2; k++) {
+            double gap = (double)r * (k ? 1.0001 : 1) + (k ? 4e-6 : -1e-7) * 4 * (double)(depth1 + r);
+            at = float_of(before ? (double)depth0 - gap : (double)depth1 + gap);
+            ball.center = lobe_vector(0, 0, at);
+            e = ggx_ellipsoid_of_sphere(ball);
+            s = ggx_stretch_ellipsoid(e);
+            record_ellipsoid(&e);
+            record_tile(t, depth0, depth1);
+            that(ggx_stretched_hits_tile(s, t, depth0, depth1) == !k, "a tile is hit in depth as far as stated");
+            that(ggx_stretched_hits_frustum(s, t, depth0, depth1) == !k, "a frustum is hit in depth as far as stated");
+        }
+    }
+}
+
+/* The stretched distance's gradient, with the least radius as unit */
+static void test_gradient(void) {
+    test_bound error = stated("gradient, of its length at most", 1e-5);
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-2, 1e4), 1e-2);
+        lobe_vec3 at = narrow(combine(1, random_direction(), 0, unit_axis(0)));
+        vec wanted = of(0, 0, 0), got;
+        float swap = e.radius[0];
+        k = pick(3);
+        e.radius[0] = e.radius[k];
+        e.radius[k] = swap;
+        for (k = 0; k < 3; k++) {
+            double share = least_radius(&e) / (double)e.radius[k];
+            wanted = combine(1, wanted, share * share * dot(wide(e.axis[k]), wide(at)), wide(e.axis[k]));
+        }
+        got = wide(lobe_ggx_gradient(lobe_ggx_metric_of(e), at));
+        record_ellipsoid(&e);
+        record_vector(at);
+        within(&error, distance(got, wanted), 0, 1);
+    }
+    test_report(&error);
+}
+
+/* A sphere beside a box, where growth alone tells: by 2^-20 of distance, size and radius, whichever is the largest */
+static void test_boxes_grow(void) {
+    test_bound growth = bound_of("ggx_ellipsoid_hits_box", "growth");
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        ggx_sphere ball;
+        double h = log_uniform(1, 1e3), wide_ = log_uniform(1, 1e3), r = log_uniform(1, 1e3), low, high, unit;
+        int along = pick(3), sign = pick(2) ? 1 : -1;
+        lobe_vec3 half = narrow(combine(h, unit_axis(along), wide_, unit_axis((along + 1) % 3)));
+        ball.radius = float_of(r);
+        r = (double)ball.radius;
+        h = component(wide(half), along);
+        wide_ = component(wide(half), (along + 1) % 3);
+        ball.center = lobe_vector(0, 0, 0);
+        low = h + r;
+        high = low * 1.001;
+        begin();
+        record_vector(half);
+        record(r);
+        for (k = 0; k < 24; k++) {
+            double middle = (low + high) / 2;
+            if (ggx_ellipsoid_hits_box(ggx_ellipsoid_of_sphere(ball),
+                                       narrow(combine(sign * middle, unit_axis(along), 0, unit_axis(0))), half))
+                low = middle;
+            else
+                high = middle;
+        }
+        unit = TEST_EPSILON * (low + fmax(h, wide_) + r);
+        within(&growth, low, h + r, unit);
+        that(low >= h + r + 14.5 * unit, "a box grows as stated");
+    }
+    test_report(&growth);
+}
+
+/* The same of a half-space beside a sphere */
+static void test_half_spaces_grow(void) {
+    test_bound growth = bound_of("ggx_ellipsoid_hits_half_space", "growth");
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        ggx_sphere ball;
+        lobe_vec3 normal = narrow(combine(log_uniform(1e-3, 1e3), random_direction(), 0, unit_axis(0)));
+        vec n = wide(normal);
+        double low, high, start, terms;
+        ball.radius = float_of(log_uniform(1e-3, 1e3));
+        ball.center = narrow(combine(log_uniform(1e-3, 1e3), random_direction(), 0, n));
+        start = low = dot(wide(ball.center), n) + (double)ball.radius * length(n);
+        terms =
+            (extent_of(wide(ball.center)) + (double)ball.radius) * (fabs(n.x) + fabs(n.y) + fabs(n.z)) + fabs(start);
+        high = low + 100 * TEST_EPSILON * terms;
+        begin();
+        record_vector(normal);
+        record_vector(ball.center);
+        record((double)ball.radius);
+        for (k = 0; k < 24; k++) {
+            double middle = (low + high) / 2;
+            if (ggx_ellipsoid_hits_half_space(ggx_ellipsoid_of_sphere(ball), normal, float_of(middle)))
+                low = middle;
+            else
+                high = middle;
+        }
+        within(&growth, low, start, TEST_EPSILON * terms);
+        that(low - start >= 6.5 * TEST_EPSILON * terms, "a half-space is hit as far as stated");
+    }
+    test_report(&growth);
+}
+
+/* A horizon across depth, across the image's axes, and a light far aside: the tile is kept as far as stated. */
+static void test_horizons_grow(void) {
+    test_bound growth = bound_of("ggx_tile_above", "growth");
+    int i, k;
+    for (i = 0; i < 20000; i++) {
+        float depth = float_of(log_uniform(1, 1e3)), x = float_of(log_uniform(1e-2, 10)),
+              y = float_of(log_uniform(1e-2, 10));
+        lobe_vec3 normal = nearly_unit(random_direction()), place;
+        vec n = wide(normal),
+            corner = of((double)depth * (double)x * (n.x > 0 ? 1 : -1), (double)depth * (double)y * (n.y > 0 ? 1 : -1),
+                        (double)depth),
+            aside;
+        double low = -1e-7, high, size, terms;
+        ggx_tile t;
+        t.right = x;
+        t.left = -x;
+        t.top = y;
+        t.bottom = -y;
+        aside = combine((double)depth * log_uniform(1e-2, 10), perpendicular(unit(n)), 1, corner);
+        terms = fabs(aside.x) + fabs(aside.y) + fabs(aside.z);
+        terms += fabs(corner.x * n.x) + fabs(corner.y * n.y) + fabs(corner.z * n.z);
+        size = TEST_EPSILON * terms;
+        high = 100 * size;
+        begin();
+        record_vector(normal);
+        record_vector(narrow(aside));
+        record_tile(t, depth, depth);
+        for (k = 0; k < 24; k++) {
+            double middle = (low + high) / 2;
+            place = narrow(combine(middle, n, 1, aside));
+            if (ggx_tile_above(place, normal, t, depth, depth))
+                low = middle;
+            else
+                high = middle;
+        }
+        within(&growth, low, 0, size);
+        that(low >= 14 * size, "a tile below the horizon by less than stated");
+    }
+    test_report(&growth);
+}
+
 /* A horizon through a tile's corner far away, and nearly across one axis of the image: the tile is kept. */
 static void test_horizons_far(void) {
     int i;
@@ -1650,6 +2008,7 @@ static void test_special_cases(void) {
         m.flux = 0;
         e = volume_of(&m, (volume)k);
         that(e.radius[0] < 1e-9f && e.radius[1] < 1e-9f && e.radius[2] < 1e-9f, "no flux, no volume");
+        that(least_radius(&e) > 0, "no radius of 0");
         m = l;
         m.wi = lobe_vector(-0.6f, 0, -0.8f);
         e = volume_of(&m, (volume)k);
@@ -1664,8 +2023,20 @@ static void test_special_cases(void) {
         that(stretched_squared(&e, l.q) <= 1, "the light itself is inside");
     }
     that(ggx_brdf_cos(l.normal, l.wi, lobe_vector(1, 0, 0), .1f) == 0, "nothing goes along the horizon");
+    that(ggx_ndf(lobe_vector(1, 0, 0), l.normal, 1) == 0 &&
+             ggx_ndf_aniso(lobe_vector(1, 0, 0), l.normal, lobe_vector(0, 1, 0), 1, 1) == 0,
+         "no facets at the horizon");
+    for (k = 0; k < 2; k++) { /* cosines above 1 count as 1 */
+        float alpha = k ? 1e-4f : .5f;
+        that(ggx_smith_g1(3, alpha) == 1 && ggx_smith_g2(3, .5f, alpha) == ggx_smith_g2(1, .5f, alpha) &&
+                 ggx_smith_g2(.5f, 3, alpha) == ggx_smith_g2(.5f, 1, alpha),
+             "masking of a cosine above 1");
+        that(ggx_fresnel_max(.04f, 3) == ggx_fresnel_max(.04f, 1.00001f),
+             "the largest Fresnel factor of a cosine above 1");
+    }
     that(ggx_brdf_cos(l.normal, lobe_vector(1, 0, 0), l.wi, .1f) > 0, "light along the horizon has a limit");
     that(ggx_brdf_cos(l.normal, lobe_scale(l.normal, -1), l.wi, .1f) == 0, "no light from below");
+    that(ggx_bound_diffuse(l.position, l.normal, 0, 1, 1, 1).radius > 0, "no radius of 0");
     e = volume_of(&l, SPHEROID);
     f = ggx_ellipsoid_of_sphere(ggx_bound_enclosing(e));
     that(f.radius[0] >= e.radius[0] && f.radius[0] < e.radius[0] * 1.00001f, "the enclosing sphere's radius");
@@ -1685,6 +2056,9 @@ const test_case ggx_bound_tests[] = {{"ggx_ndf", test_ndf},
                                      {"ggx_bound_ellipsoid", test_ellipsoid},
                                      {"ggx_bound_ellipsoid_aniso", test_ellipsoid_aniso},
                                      {"ggx_bound_spheres", test_spheres},
+                                     {"ggx_pad", test_pad},
+                                     {"ggx_grazing_range", test_grazing_range},
+                                     {"ggx_padding", test_padding},
                                      {"ggx_bound_volumes", test_volumes},
                                      {"ggx_tightness", test_tightness},
                                      {"ggx_bound_volumes_aniso", test_volumes_aniso},
@@ -1698,6 +2072,12 @@ const test_case ggx_bound_tests[] = {{"ggx_ndf", test_ndf},
                                      {"ggx_tiles_near", test_tiles_near},
                                      {"ggx_tile_above", test_tile_above},
                                      {"ggx_tiles_far", test_tiles_far},
+                                     {"ggx_stretched_radius", test_stretched_radius},
+                                     {"ggx_tiles_in_depth", test_tiles_in_depth},
+                                     {"ggx_gradient", test_gradient},
+                                     {"ggx_boxes_grow", test_boxes_grow},
+                                     {"ggx_half_spaces_grow", test_half_spaces_grow},
+                                     {"ggx_horizons_grow", test_horizons_grow},
                                      {"ggx_horizons_far", test_horizons_far},
                                      {"ggx_edges", test_bound_edges},
                                      {"ggx_special_cases", test_special_cases},

@@ -261,9 +261,9 @@ ggx_ellipsoid ggx_bound_spheroid(float3 position, float3 normal, float3 wi, floa
 }
 
 // d in (eps / 2, 1] for which the ellipsoid is about smallest; any d in that interval gives a bound
-float lobe_ggx_tightness(float h, float eps, float c2, float s) {
-    float t = eps * (5.0 * h + 4.0 * c2) * s, root = sqrt(t * t + 128.0 * eps * c2 * h * (h + c2));
-    float q = 4.0 * h * s / max(t + root, 1e-30), q2 = q * q;
+float lobe_ggx_tightness(float eps, float c2, float s) {
+    float t = 4.5 * eps * s, root = sqrt(t * t + 120.0 * eps * c2);
+    float q = 4.0 * (1.0 - eps * eps * eps) * s / max(t + root, 1e-30), q2 = q * q;
     return 1.0 / sqrt(sqrt(1.0 + q2 * q2));
 }
 
@@ -273,7 +273,7 @@ ggx_ellipsoid ggx_bound_ellipsoid(float3 position, float3 normal, float3 wi, flo
     float a = lobe_ggx_alpha(alpha), a2 = a * a, eps = 2.0 * a2 / (1.0 + a2), e = (1.0 - a) * (1.0 + a) / (1.0 + a2);
     float c = lobe_ggx_cosine(normal, wi), s = lobe_ggx_sine(normal, wi), c2 = c * c, h = e * (s * s);
     float r = lobe_ggx_range(normal, wi, lobe_ggx_slope(c, a), flux, fresnel_max, delta, xi);
-    float d = lobe_ggx_tightness(h, eps, c2, s), eta = sqrt(max(1.0 - d, 0.0));
+    float d = lobe_ggx_tightness(eps, c2, s), eta = sqrt(max(1.0 - d, 0.0));
     float k = 1.0 + h * (1.0 + eta) / (d / (1.0 + eta) + 2.0 * eta * c2);
     float g = 2.0 * d / ((2.0 * d - eps) * (1.0 + a2)), ru = 0.5 * (a + 1.0 / a) * g * r, side = sqrt(g) * r;
     float3 u = lobe_ggx_mirror(normal, wi), w = lobe_ggx_across(normal, wi, u);
@@ -314,7 +314,6 @@ ggx_ellipsoid ggx_bound_ellipsoid_aniso(float3 position, float3 normal, float3 t
     // X in the frame of the plane of incidence
     lobe_ggx_tangents(normal, tangent, tx, ty);
     float2 turn = float2(dot(w, ty), -dot(w, tx));
-    turn *= 1.0 / sqrt(max(dot(turn, turn), 1e-30));
     float xx = (1.0 - ax) * (1.0 + ax) / (ax * ax), yy = (1.0 - ay) * (1.0 + ay) / (ay * ay);
     float x11 = xx * turn.x * turn.x + yy * turn.y * turn.y, x22 = xx * turn.y * turn.y + yy * turn.x * turn.x;
     float x12 = (yy - xx) * turn.y * turn.x;
@@ -328,10 +327,10 @@ ggx_ellipsoid ggx_bound_ellipsoid_aniso(float3 position, float3 normal, float3 t
         c1 = x12 / max(c2_rest, 1e-30);
     // the quadratic form in U and along (c1 c, c2), for the best of three d
     float eps = 2.0 / (2.0 + kappa), ev = c1 * c, ew = c2_rest, l2 = ev * ev + ew * ew;
-    float d = lobe_ggx_tightness(0.5 * eps * (c2 * c1 * c1 + ew * ew), eps, c2, s), least = min(1.25 * eps, d);
+    float d = lobe_ggx_tightness(eps, c2, s), least = min(1.25 * eps, d);
     lobe_ggx_form q = lobe_ggx_form_of(d, eps, c2, s, c1, l2);
-    lobe_ggx_form second = lobe_ggx_form_of(max(0.6 * d, least), eps, c2, s, c1, l2);
-    lobe_ggx_form third = lobe_ggx_form_of(max(0.35 * d, least), eps, c2, s, c1, l2);
+    lobe_ggx_form second = lobe_ggx_form_of(max(0.8 * d, least), eps, c2, s, c1, l2);
+    lobe_ggx_form third = lobe_ggx_form_of(max(0.5 * d, least), eps, c2, s, c1, l2);
     if (lobe_ggx_form_merit(second) > lobe_ggx_form_merit(q)) q = second;
     if (lobe_ggx_form_merit(third) > lobe_ggx_form_merit(q)) q = third;
     // its center and level, and its axes by one Jacobi rotation; the smaller eigenvalue as a quotient
@@ -449,10 +448,10 @@ bool ggx_ellipsoid_hits_box(ggx_ellipsoid e, float3 box_center, float3 half_size
     float3 offset = box_center - e.center, low = offset - half_size, high = offset + half_size;
     float size = lobe_ggx_extent(offset) + lobe_ggx_extent(half_size) + ggx_bound_enclosing(e).radius;
     float slack = 9.53674316e-7 * size;
-    // along the ellipsoid's axes, over the radii
-    float3 reach = float3(dot(abs(e.axis[0]), half_size), dot(abs(e.axis[1]), half_size), dot(abs(e.axis[2]), half_size));
-    float3 gap = max(abs(lobe_ggx_turn(e.axis, offset)) - (reach + slack), float3(0.0, 0.0, 0.0)) / e.radius;
-    if (dot(gap, gap) > 1.00001) return false;
+    if (lobe_ggx_parted(e, float3(1.0, 0.0, 0.0), offset, half_size, slack) ||
+        lobe_ggx_parted(e, float3(0.0, 1.0, 0.0), offset, half_size, slack) ||
+        lobe_ggx_parted(e, float3(0.0, 0.0, 1.0), offset, half_size, slack))
+        return false;
     // the ellipsoid's metric sum axis axis' / radius^2, up to a factor, and by it the nearest point of the box: three
     // rounds of descent along each coordinate in turn, as far as the box allows
     float3 weight = min(min(e.radius.x, e.radius.y), e.radius.z) / e.radius;
@@ -464,11 +463,7 @@ bool ggx_ellipsoid_hits_box(ggx_ellipsoid e, float3 box_center, float3 half_size
         p.y = clamp(-dot(my.xz, p.xz) / max(my.y, 1e-30), low.y, high.y);
         p.z = clamp(-dot(mz.xy, p.xy) / max(mz.z, 1e-30), low.z, high.z);
     }
-    float3 gradient = float3(dot(mx, p), dot(my, p), dot(mz, p));
-    return !(lobe_ggx_parted(e, float3(1.0, 0.0, 0.0), offset, half_size, slack) ||
-             lobe_ggx_parted(e, float3(0.0, 1.0, 0.0), offset, half_size, slack) ||
-             lobe_ggx_parted(e, float3(0.0, 0.0, 1.0), offset, half_size, slack) ||
-             lobe_ggx_parted(e, gradient, offset, half_size, slack));
+    return !lobe_ggx_parted(e, float3(dot(mx, p), dot(my, p), dot(mz, p)), offset, half_size, slack);
 }
 
 // The space of an ellipsoid, in the camera's frame, in which it is a unit sphere
@@ -502,11 +497,6 @@ float3 lobe_ggx_ray(ggx_stretched s, float x, float y) {
     return float3(s.xx * x + s.xy * y + s.xz, s.yy * y + s.yz, s.zz);
 }
 
-// How far a number is outside of [low, high]
-float lobe_ggx_outside(float low, float high, float x) {
-    return max(max(low - x, x - high), 0.0);
-}
-
 // A tile with its sides in the stretched space's order
 ggx_tile lobe_ggx_swap(ggx_stretched s, ggx_tile tile) {
     ggx_tile t;
@@ -517,19 +507,30 @@ ggx_tile lobe_ggx_swap(ggx_stretched s, ggx_tile tile) {
     return t;
 }
 
+// The sphere's radius, with 2^-19 of the sum of the terms that make coordinates of it and of a frustum to that depth; the
+// tile as lobe_ggx_swap has it
+float lobe_ggx_stretched_radius(ggx_stretched s, ggx_tile t, float depth) {
+    float wide = max(abs(t.left), abs(t.right)), high = max(abs(t.bottom), abs(t.top));
+    float terms = s.xx * wide + (abs(s.xy) + s.yy) * high + abs(s.xz) + abs(s.yz) + s.zz;
+    return 1.00001 + 1.90734863e-6 * (s.size + depth * terms);
+}
+
+// How far a number is outside of [low, high]
+float lobe_ggx_outside(float low, float high, float x) {
+    return max(max(low - x, x - high), 0.0);
+}
+
 // Whether an ellipsoid meets the part of a tile's frustum between two depths
 bool ggx_stretched_hits_tile(ggx_stretched s, ggx_tile tile, float depth0, float depth1) {
     ggx_tile t = lobe_ggx_swap(s, tile);
     float x0 = s.xx * t.left + min(s.xy * t.bottom, s.xy * t.top) + s.xz;
     float x1 = s.xx * t.right + max(s.xy * t.bottom, s.xy * t.top) + s.xz;
     float y0 = s.yy * t.bottom + s.yz, y1 = s.yy * t.top + s.yz;
-    float wide = max(abs(t.left), abs(t.right)), high = max(abs(t.bottom), abs(t.top));
-    float terms = s.xx * wide + (abs(s.xy) + s.yy) * high + abs(s.xz) + abs(s.yz) + s.zz;
-    float slack = 1.90734863e-6 * (s.size + depth1 * terms) + 1.00001;
     float x = lobe_ggx_outside(min(x0 * depth0, x0 * depth1), max(x1 * depth0, x1 * depth1), s.center.x);
     float y = lobe_ggx_outside(min(y0 * depth0, y0 * depth1), max(y1 * depth0, y1 * depth1), s.center.y);
     float z = lobe_ggx_outside(s.zz * depth0, s.zz * depth1, s.center.z);
-    return x * x + y * y + z * z <= slack * slack;
+    float radius = lobe_ggx_stretched_radius(s, t, depth1);
+    return x * x + y * y + z * z <= radius * radius;
 }
 
 // Whether an ellipsoid in the camera's frame reaches inside of each of the four sides of a tile's frustum
@@ -540,9 +541,9 @@ bool ggx_ellipsoid_hits_sides(ggx_ellipsoid e, ggx_tile tile) {
            ggx_ellipsoid_hits_half_space(e, float3(0.0, -1.0, tile.top), 0.0);
 }
 
-// The point of a tile's frustum that is lowest along a direction of the stretched space, relative to the ellipsoid
-float3 lobe_ggx_support(ggx_stretched s, ggx_tile tile, float depth0, float depth1, float3 q) {
-    ggx_tile t = lobe_ggx_swap(s, tile);
+// The point of a tile's frustum that is lowest along a direction of the stretched space, relative to the ellipsoid; the
+// tile as lobe_ggx_swap has it
+float3 lobe_ggx_support(ggx_stretched s, ggx_tile t, float depth0, float depth1, float3 q) {
     float gx = s.xx * q.x, gy = s.xy * q.x + s.yy * q.y, gz = s.xz * q.x + s.yz * q.y + s.zz * q.z;
     float x = gx > 0.0 ? t.left : t.right, y = gy > 0.0 ? t.bottom : t.top;
     float z = gx * x + gy * y + gz > 0.0 ? depth0 : depth1;
@@ -559,14 +560,12 @@ float3 lobe_ggx_nearer(float3 q, float3 other) {
 // through
 bool ggx_stretched_hits_frustum(ggx_stretched s, ggx_tile tile, float depth0, float depth1) {
     ggx_tile t = lobe_ggx_swap(s, tile);
-    float most = max(max(abs(t.left), abs(t.right)), max(abs(t.bottom), abs(t.top)));
-    float terms = (s.xx + abs(s.xy) + s.yy) * most + abs(s.xz) + abs(s.yz) + s.zz;
-    float slack = 1.90734863e-6 * (s.size + depth1 * terms) + 1.00001;
-    float x = 0.5 * (t.left + t.right), y = 0.5 * (t.bottom + t.top);
-    float3 q = 0.5 * (depth0 + depth1) * lobe_ggx_ray(s, x, y) - s.center;
+    float3 ray = lobe_ggx_ray(s, 0.5 * (t.left + t.right), 0.5 * (t.bottom + t.top));
+    float3 q = 0.5 * (depth0 + depth1) * ray - s.center;
+    float radius = lobe_ggx_stretched_radius(s, t, depth1);
     for (int k = 0; k < 3; k++) {
-        float3 lowest = lobe_ggx_support(s, tile, depth0, depth1, q);
-        if (dot(q, lowest) > slack * sqrt(dot(q, q))) return false;
+        float3 lowest = lobe_ggx_support(s, t, depth0, depth1, q);
+        if (dot(q, lowest) > radius * sqrt(dot(q, q))) return false;
         q = lobe_ggx_nearer(q, lowest);
     }
     return true;
