@@ -1473,9 +1473,11 @@ static void test_boxes_near(void) {
 
 /* A camera that looks anywhere from anywhere: what was inside is inside of the turned ellipsoid */
 static void test_transform(void) {
+    test_bound growth = stated("what an ellipsoid grows by as it is turned", 9);
     int i, k;
     for (i = 0; i < test_few(200000); i++) {
         ggx_ellipsoid e = random_ellipsoid(log_uniform(1e-2, 1e4), 1e-4), turned;
+        double size;
         vec u = random_direction(), v = perpendicular(u), p, offset;
         lobe_vec3 view[3], eye = narrow(combine(log_uniform(1e-2, 1e4), random_direction(), 0, u));
         view[0] = narrow(u);
@@ -1493,7 +1495,13 @@ static void test_transform(void) {
         if (stretched_squared(&e, p) > 1) continue;
         p = wide(narrow(of(dot(wide(view[0]), offset), dot(wide(view[1]), offset), dot(wide(view[2]), offset))));
         that(stretched_squared(&turned, p) <= 1, "what is in an ellipsoid is in the turned one");
+        size = TEST_EPSILON * (extent_of(wide(turned.center)) + extent_of(wide(e.center)) + (double)e.radius[0]);
+        if (size > 100 * TEST_EPSILON * least_radius(&e) && size < 0.1 * least_radius(&e)) {
+            within(&growth, least_radius(&turned), least_radius(&e), size);
+            that(least_radius(&turned) - least_radius(&e) > 7.5 * size, "grows by all coordinates");
+        }
     }
+    test_report(&growth);
 }
 
 static ggx_tile random_tile(void) {
@@ -1732,13 +1740,13 @@ static void test_boxes_grow(void) {
     int i, k;
     for (i = 0; i < 20000; i++) {
         ggx_sphere ball;
-        double h = log_uniform(1, 1e3), wide_ = log_uniform(1, 1e3), r = log_uniform(1, 1e3), low, high, unit;
+        double h = log_uniform(1, 1e3), across = log_uniform(1, 1e3), r = log_uniform(1, 1e3), low, high, unit;
         int along = pick(3), sign = pick(2) ? 1 : -1;
-        lobe_vec3 half = narrow(combine(h, unit_axis(along), wide_, unit_axis((along + 1) % 3)));
+        lobe_vec3 half = narrow(combine(h, unit_axis(along), across, unit_axis((along + 1) % 3)));
         ball.radius = float_of(r);
         r = (double)ball.radius;
         h = component(wide(half), along);
-        wide_ = component(wide(half), (along + 1) % 3);
+        across = component(wide(half), (along + 1) % 3);
         ball.center = lobe_vector(0, 0, 0);
         low = h + r;
         high = low * 1.001;
@@ -1753,7 +1761,7 @@ static void test_boxes_grow(void) {
             else
                 high = middle;
         }
-        unit = TEST_EPSILON * (low + fmax(h, wide_) + r);
+        unit = TEST_EPSILON * (low + fmax(h, across) + r);
         within(&growth, low, h + r, unit);
         that(low >= h + r + 14.5 * unit, "a box grows as stated");
     }
