@@ -182,6 +182,7 @@ static void gaussians_match(void) {
                                                       (float)inputs[3], (float)inputs[4]),
                     exp(wanted), similarity(wanted, inputs[4], 0), inputs, 5);
     }
+    test_that(bilateral_gaussian_weight(1, 1e-20f, 1, 1e-18f, 1) > 0.999999f, "variances below 1e-18 are alike", 0, 0);
     test_report(&bound);
 }
 

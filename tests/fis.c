@@ -219,6 +219,12 @@ static void bad_pixels(void) {
         double input = i;
         test_that(p.texels[i] == wanted, "only bad texels are replaced", &input, 1);
     }
+    memcpy(memory, image, sizeof image);
+    p = fis_build(memory, memory, 4, 3, 1);
+    for (i = 0; i < 12; i++) {
+        double input = i;
+        test_that(p.texels[i] == (i >= 4 && i <= 8 ? 0.0f : image[i]), "and in place", &input, 1);
+    }
     p = fis_build_pdf(memory, image, 4, 3);
     for (i = 0; i < 12; i++) {
         float wanted = i == 0 || i == 9 || i == 11 ? image[i] : 0.0f;
@@ -757,6 +763,15 @@ static void totals(void) {
             free_pyramid(pdf);
             free(image);
         }
+    }
+    { /* improbable, but not yet so that it counts as 0 */
+        float pair[2] = {1, 0x1p-90f};
+        fis_pyramid pdf = build_pdf(pair, 2, 1);
+        fis_sample s = fis_warp(&pdf, fis_lattice(0, 1));
+        s.u = 0.75f;
+        s.v = 0.5f;
+        test_within(&bound, (double)fis_scale(&pdf, &s, 0, 4), 0x1p88, 0x1p88, in, 0);
+        free_pyramid(pdf);
     }
     { /* another channel: a smooth image, unlike the PDF */
         enum { SIDE = 256, COUNT = 1024 };

@@ -651,6 +651,15 @@ static void test_cosine_integral(void) {
         check_cosine(i % 2 ? &wide_lobes : &sharp, &approx, i % 2 ? log_uniform(1e-12, 1e-3) : log_uniform(1e6, 1e30),
                      uniform(0, PI));
     }
+    for (i = 0; i < 100; i++) {
+        float l = (float)test_log_uniform(&test_random, 0.1, 1e10);
+        double in = (double)l;
+        test_that(lobe_cosine_mean(l, 1.5f) == lobe_cosine_mean(l, 1) &&
+                      lobe_cosine_mean(l, -1.5f) == lobe_cosine_mean(l, -1),
+                  "a cosine counts as -1 to 1", &in, 1);
+        test_that(lobe_cosine_mean_approx(l, -1.5f) == lobe_cosine_mean_approx(l, -1), "a cosine counts as -1 to 1",
+                  &in, 1);
+    }
     test_report(&bound);
     test_report(&wide_lobes);
     test_report(&sharp);
