@@ -221,7 +221,7 @@ LOBE_API float ggx_ndf_aniso(lobe_vec3 h, lobe_vec3 normal, lobe_vec3 tangent, f
 */
 LOBE_API float ggx_smith_g1(float cos_theta, float alpha) {
     float c = lobe_at_most(lobe_at_least(cos_theta, 0), 1);
-    return 2 * c / (c + lobe_ggx_slope(c, lobe_ggx_alpha(alpha)));
+    return lobe_at_most(2 * c / (c + lobe_ggx_slope(c, lobe_ggx_alpha(alpha))), 1);
 }
 
 /*
@@ -236,7 +236,7 @@ LOBE_API float ggx_smith_g1(float cos_theta, float alpha) {
 LOBE_API float ggx_smith_g1_aniso(lobe_vec3 dir, lobe_vec3 normal, lobe_vec3 tangent, float alpha_x, float alpha_y) {
     float c = lobe_at_least(lobe_dot(dir, normal), 0);
     float slope = lobe_ggx_slope_aniso(dir, normal, tangent, lobe_ggx_alpha(alpha_x), lobe_ggx_alpha(alpha_y));
-    return 2 * c / lobe_at_least(c + slope, LOBE_TINY);
+    return lobe_at_most(2 * c / lobe_at_least(c + slope, LOBE_TINY), 1);
 }
 
 /*
@@ -510,7 +510,7 @@ LOBE_API ggx_ellipsoid ggx_bound_spheroid(lobe_vec3 position, lobe_vec3 normal, 
 }
 
 /* d = 1 - eta^2 in (eps / 2, 1] for which the ellipsoid is about smallest, eps = 1 - e: within .1 % in the mean and .4 %
-   of the best, a fit. Any d in that interval gives a bound; this one is at least .98 eps.
+   of the best, a fit. Any d in that interval gives a bound; this one is at least eps.
    [bound lobe_ggx_tightness mean .001] [bound lobe_ggx_tightness worst .004] */
 LOBE_API float lobe_ggx_tightness(float eps, float c2, float s) {
     float t = 4.5f * eps * s, root = sqrtf(t * t + 120 * eps * c2);
@@ -885,16 +885,14 @@ LOBE_API int ggx_ellipsoid_hits_box(ggx_ellipsoid e, lobe_vec3 box_center, lobe_
     lobe_ggx_metric m = lobe_ggx_metric_of(e);
     float size = lobe_ggx_extent(offset) + lobe_ggx_extent(half_size) + ggx_bound_enclosing(e).radius;
     float slack = 9.53674316e-7f * size;
-    int parted;
     p = lobe_vector(lobe_ggx_clamp(0, offset.x, half_size.x), lobe_ggx_clamp(0, offset.y, half_size.y),
                     lobe_ggx_clamp(0, offset.z, half_size.z));
     p = lobe_ggx_descend(m, lobe_ggx_descend(m, lobe_ggx_descend(m, p, offset, half_size), offset, half_size), offset,
                          half_size);
-    parted = lobe_ggx_parted(e, lobe_vector(1, 0, 0), offset, half_size, slack) |
+    return !(lobe_ggx_parted(e, lobe_vector(1, 0, 0), offset, half_size, slack) |
              lobe_ggx_parted(e, lobe_vector(0, 1, 0), offset, half_size, slack) |
              lobe_ggx_parted(e, lobe_vector(0, 0, 1), offset, half_size, slack) |
-             lobe_ggx_parted(e, lobe_ggx_gradient(m, p), offset, half_size, slack);
-    return !parted;
+             lobe_ggx_parted(e, lobe_ggx_gradient(m, p), offset, half_size, slack));
 }
 
 /*

@@ -167,6 +167,9 @@ static void test_smith(void) {
         wanted = 2 * c * o / (c * so + o * si);
         within(&g2, (double)ggx_smith_g2((float)c, (float)o, alpha), wanted, test_ulp(wanted));
         that(ggx_smith_g2(1 - 1e-6f * (float)c, 1 - 1e-6f * (float)o, alpha) <= 1, "G2 is at most 1");
+        that(ggx_smith_g1(1 - 1e-6f * (float)c, alpha) <= 1, "G1 is at most 1");
+        that(ggx_smith_g1_aniso(nearly_unit(combine(1, nn, 1e-3 * c, wide(w))), n, t, alpha, ay) <= 1,
+             "G1 is at most 1");
         wanted = 4 * c * o / ((c + si) * (o + so));
         within(&g2, (double)ggx_smith_g2_separable((float)c, (float)o, alpha), wanted, test_ulp(wanted));
         c = dot(unit(wide(w)), nn);

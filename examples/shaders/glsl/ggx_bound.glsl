@@ -103,14 +103,14 @@ float ggx_ndf_aniso(vec3 h, vec3 normal, vec3 tangent, float alpha_x, float alph
 // The share of facets that a direction sees
 float ggx_smith_g1(float cos_theta, float alpha) {
     float c = clamp(cos_theta, 0.0, 1.0);
-    return 2.0 * c / (c + lobe_ggx_slope(c, lobe_ggx_alpha(alpha)));
+    return min(2.0 * c / (c + lobe_ggx_slope(c, lobe_ggx_alpha(alpha))), 1.0);
 }
 
 // The same with two widths
 float ggx_smith_g1_aniso(vec3 dir, vec3 normal, vec3 tangent, float alpha_x, float alpha_y) {
     float c = max(dot(dir, normal), 0.0);
     float slope = lobe_ggx_slope_aniso(dir, normal, tangent, lobe_ggx_alpha(alpha_x), lobe_ggx_alpha(alpha_y));
-    return 2.0 * c / max(c + slope, 1e-30);
+    return min(2.0 * c / max(c + slope, 1e-30), 1.0);
 }
 
 // The share of facets that two directions see, with heights correlated
