@@ -618,17 +618,19 @@ LOBE_API ggx_ellipsoid ggx_bound_ellipsoid_aniso(lobe_vec3 position, lobe_vec3 n
     x22 = xx * sine * sine + xy * cosine * cosine;
     x12 = (xy - xx) * sine * cosine;
     det = xx * xy;
-    /* the spheroid that it contains, and the rest, the smaller part of which would cancel */
+    /* the spheroid that it contains, and the rest, the smaller part of which would cancel, and is no larger: of nearly
+       equal alphas both are rounding */
     b = x11 * c2 + x22;
     difference = x11 * c2 - x22;
     kappa = 2 * det / lobe_at_least(b + sqrtf(difference * difference + 4 * c2 * x12 * x12), LOBE_TINY);
     c1 = sqrtf(lobe_at_least(x11 - kappa, 0));
     c2_rest = sqrtf(lobe_at_least(x22 - kappa * c2, 0));
-    first = x12 / lobe_at_least(c2_rest, LOBE_TINY);
-    second = x12 / lobe_at_least(c1, LOBE_TINY);
     better = c1 > c2_rest;
-    c1 = lobe_select(better, c1, first);
-    c2_rest = lobe_select(better, second, c2_rest);
+    first = lobe_at_least(c1, c2_rest);
+    second = lobe_at_most(fabsf(x12), first * first) / lobe_at_least(first, LOBE_TINY);
+    second = lobe_select(x12 < 0, -second, second);
+    c1 = lobe_select(better, first, second);
+    c2_rest = lobe_select(better, second, first);
     /* the quadratic form in U and along (c1 c, c2), for the best of three d */
     eps = 2 / (2 + kappa);
     ev = c1 * c;
@@ -874,7 +876,7 @@ LOBE_API lobe_vec3 lobe_ggx_descend(lobe_ggx_metric m, lobe_vec3 p, lobe_vec3 mi
    returns    1, or 0: surely not
 
    Rounding: covered: the box is grown by 2^-20 of the sum of its distance, its size and the largest radius
-             [bound ggx_ellipsoid_hits_box growth 17.5]
+             [bound ggx_ellipsoid_hits_box growth 19]
    Model:    of boxes that are hit by the ellipsoid's own bounding box, but not by it, at most .5 % are not told
              [bound ggx_ellipsoid_hits_box false_hits .005]
    Source:   derived for this library, for 003's stretched sphere: the planes across the coordinate axes, and across the
@@ -1084,7 +1086,7 @@ LOBE_API int ggx_stretched_hits_clusters(ggx_stretched s, ggx_tile tile, const f
    returns           1, or 0: surely not
 
    Rounding: covered; 1 also within 2^-20 of the sum of the terms of both heights above the horizon
-             [bound ggx_tile_above slack 32] [bound ggx_tile_above growth 18]
+             [bound ggx_tile_above slack 32] [bound ggx_tile_above growth 20]
    Model:    exact
    Source:   derived for this library: a plane and the frustum's corners
 */

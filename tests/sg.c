@@ -1483,7 +1483,7 @@ static void check_finite_light(void) {
 
 static void test_finite(void) {
     int i;
-    for (i = 0; i < test_draws(1000000); i++) {
+    for (i = 0; i < test_draws(300000); i++) {
         begin();
         check_finite_functions();
         begin();

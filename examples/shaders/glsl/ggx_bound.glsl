@@ -322,9 +322,9 @@ ggx_ellipsoid ggx_bound_ellipsoid_aniso(vec3 position, vec3 normal, vec3 tangent
     float kappa = 2.0 * xx * yy / max(b + sqrt(difference * difference + 4.0 * c2 * x12 * x12), 1e-30);
     float c1 = sqrt(max(x11 - kappa, 0.0)), c2_rest = sqrt(max(x22 - kappa * c2, 0.0));
     if (c1 > c2_rest)
-        c2_rest = x12 / max(c1, 1e-30);
+        c2_rest = clamp(x12 / max(c1, 1e-30), -c1, c1);
     else
-        c1 = x12 / max(c2_rest, 1e-30);
+        c1 = clamp(x12 / max(c2_rest, 1e-30), -c2_rest, c2_rest);
     // the quadratic form in U and along (c1 c, c2), for the best of three d
     float eps = 2.0 / (2.0 + kappa), ev = c1 * c, ew = c2_rest, l2 = ev * ev + ew * ew;
     float d = lobe_ggx_tightness(eps, c2, s), least = min(1.25 * eps, d);
