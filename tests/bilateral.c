@@ -563,7 +563,7 @@ static void weights_are_weights(void) {
 static void rows_are_taps(void) {
     static const int counts[] = {1, 2, 127, 128, 129, 256, 300, 511};
     enum { MOST = 513, PLANES = 13, LOBES = 2 };
-    static float plane[2][PLANES][MOST], weight[MOST], wanted[MOST];
+    static float plane[2][PLANES][2 * MOST], weight[MOST], wanted[MOST];
     const float *planes[2][PLANES];
     float beta = 2;
     int n, form, x, p, k;
@@ -571,7 +571,7 @@ static void rows_are_taps(void) {
         int count = counts[n / 3];
         form = n % 3;
         for (p = 0; p < 2; p++)
-            for (k = 0; k < PLANES; k++) planes[p][k] = plane[p][k];
+            for (k = 0; k < PLANES; k++) planes[p][k] = plane[p][k] + MOST; /* zeros before it */
         weight[0] = weight[count + 1] = 42;
         for (x = 0; x < count; x++) {
             /* no lobe of the second block, and no second one of the first, has a tail */
@@ -588,8 +588,9 @@ static void rows_are_taps(void) {
                 s[0] = bilateral_sg_prepare(i[0], beta);
                 s[1] = bilateral_sg_prepare(j[0], beta);
                 for (p = 0; p < 2; p++) {
-                    plane[p][0][x] = s[p].axis.x, plane[p][1][x] = s[p].axis.y, plane[p][2][x] = s[p].axis.z;
-                    plane[p][3][x] = s[p].width;
+                    plane[p][0][MOST + x] = s[p].axis.x, plane[p][1][MOST + x] = s[p].axis.y,
+                                       plane[p][2][MOST + x] = s[p].axis.z;
+                    plane[p][3][MOST + x] = s[p].width;
                 }
                 wanted[x] = bilateral_sg_tap(exponent, s[0], s[1], beta);
             } else if (form == 1) {
@@ -600,9 +601,11 @@ static void rows_are_taps(void) {
                 bilateral_sg_mixture_prepare(j, LOBES, s[1]);
                 for (p = 0; p < 2; p++) {
                     for (l = 0; l < LOBES; l++) {
-                        float(*to)[MOST] = plane[p] + PART_PLANES * l;
-                        to[0][x] = s[p][l].axis.x, to[1][x] = s[p][l].axis.y, to[2][x] = s[p][l].axis.z;
-                        to[3][x] = s[p][l].sharpness, to[4][x] = s[p][l].amplitude, to[5][x] = s[p][l].tail;
+                        float(*to)[2 * MOST] = plane[p] + PART_PLANES * l;
+                        to[0][MOST + x] = s[p][l].axis.x, to[1][MOST + x] = s[p][l].axis.y,
+                                     to[2][MOST + x] = s[p][l].axis.z;
+                        to[3][MOST + x] = s[p][l].sharpness, to[4][MOST + x] = s[p][l].amplitude,
+                                     to[5][MOST + x] = s[p][l].tail;
                     }
                 }
                 for (l = 0; l < LOBES; l++)
@@ -619,11 +622,14 @@ static void rows_are_taps(void) {
                     a.sharpness_y = p ? j[1].sharpness : i[1].sharpness;
                     a.log_amplitude = 0;
                     prepared = s[p] = bilateral_asg_prepare(a);
-                    plane[p][0][x] = prepared.x.x, plane[p][1][x] = prepared.x.y, plane[p][2][x] = prepared.x.z;
-                    plane[p][3][x] = prepared.y.x, plane[p][4][x] = prepared.y.y, plane[p][5][x] = prepared.y.z;
-                    plane[p][6][x] = prepared.z.x, plane[p][7][x] = prepared.z.y, plane[p][8][x] = prepared.z.z;
-                    plane[p][9][x] = prepared.sharpness_x, plane[p][10][x] = prepared.sharpness_y;
-                    plane[p][11][x] = prepared.own_exponent, plane[p][12][x] = prepared.own_scale;
+                    plane[p][0][MOST + x] = prepared.x.x, plane[p][1][MOST + x] = prepared.x.y,
+                                       plane[p][2][MOST + x] = prepared.x.z;
+                    plane[p][3][MOST + x] = prepared.y.x, plane[p][4][MOST + x] = prepared.y.y,
+                                       plane[p][5][MOST + x] = prepared.y.z;
+                    plane[p][6][MOST + x] = prepared.z.x, plane[p][7][MOST + x] = prepared.z.y,
+                                       plane[p][8][MOST + x] = prepared.z.z;
+                    plane[p][9][MOST + x] = prepared.sharpness_x, plane[p][10][MOST + x] = prepared.sharpness_y;
+                    plane[p][11][MOST + x] = prepared.own_exponent, plane[p][12][MOST + x] = prepared.own_scale;
                 }
                 wanted[x] = bilateral_asg_tap(exponent, s[0], s[1], beta);
             }
@@ -653,7 +659,11 @@ static float any_float(double limit) {
 
 /* Any bits that are finite: unit axes, anything else */
 static void finite_everywhere(void) {
+    const sg_lobe nowhere = {{0, 0, 0}, 10, 0};
+    bilateral_sg_part instead;
     int k;
+    bilateral_sg_mixture_prepare(&nowhere, 1, &instead);
+    test_that(instead.axis.z > 0.999f && instead.axis.z < 1, "an axis of no length counts as z", NULL, 0);
     for (k = 0; k < test_draws(300000); k++) {
         float beta = fabsf(any_float(1e3)), weights[4], inverse, footprint[4];
         sg_lobe i = random_lobe(1, 1), j = other_lobe(i, 1, 1, 1), merged, two[2];
@@ -765,6 +775,18 @@ static void merged_lobes_match(void) {
             test_within(&model, 1 / tanh(size) - 1 / size, length(exact_mean) / whole, 1, inputs, 2 * MOST_LOBES);
         }
     }
+    for (k = 0; k < 3; k++) { /* whichever is by far the brightest */
+        mixture m = random_mixture(random_direction(), 10, 1e3);
+        sg_lobe got;
+        m.count = 3;
+        m.lobe[1] = m.lobe[2] = m.lobe[0];
+        m.lobe[k].axis = narrow(random_direction());
+        m.lobe[k].log_amplitude += 300;
+        got = bilateral_merge(m.lobe, 3);
+        test_that(distance(wide(got.axis), wide(m.lobe[k].axis)) < 1e-6 &&
+                      fabs((double)(got.log_amplitude - m.lobe[k].log_amplitude)) < 1e-4,
+                  "the brightest lobe alone", NULL, 0);
+    }
     test_report(&sharpness);
     test_report(&axis);
     test_report(&integral);
@@ -776,13 +798,13 @@ static void merged_lobes_match(void) {
 static void pairs_reach_both(void) {
     enum { COUNT = 37, CHANNELS = 2 };
     test_bound bound = bound_of("bilateral_pairs_add", "rel");
-    float weight[COUNT], colour[CHANNELS][COUNT + 1], sum[CHANNELS + 1][COUNT + 1];
+    float weight[COUNT + 1], colour[CHANNELS][COUNT + 2], sum[CHANNELS + 1][COUNT + 2];
     const float *first[CHANNELS], *second[CHANNELS];
     float *first_sum[CHANNELS + 1], *second_sum[CHANNELS + 1];
-    double wanted[CHANNELS + 1][COUNT + 1] = {{0}};
+    double wanted[CHANNELS + 1][COUNT + 2] = {{0}};
     int x, c;
     for (c = 0; c <= CHANNELS; c++) {
-        for (x = 0; x <= COUNT; x++) {
+        for (x = 0; x <= COUNT + 1; x++) {
             sum[c][x] = (float)uniform();
             wanted[c][x] = (double)sum[c][x];
             if (c < CHANNELS) colour[c][x] = (float)uniform();
@@ -794,7 +816,7 @@ static void pairs_reach_both(void) {
         first[c] = colour[c];
         second[c] = colour[c] + 1;
     }
-    for (x = 0; x < COUNT; x++) weight[x] = (float)uniform();
+    for (x = 0; x <= COUNT; x++) weight[x] = (float)(1 + uniform()); /* the last counts nowhere */
     bilateral_pairs_add(COUNT, weight, CHANNELS, first, second, first_sum, second_sum);
     for (x = 0; x < COUNT; x++) {
         double w = (double)weight[x];
@@ -806,7 +828,7 @@ static void pairs_reach_both(void) {
         wanted[CHANNELS][x + 1] += w;
     }
     for (c = 0; c <= CHANNELS; c++) {
-        for (x = 0; x <= COUNT; x++) {
+        for (x = 0; x <= COUNT + 1; x++) {
             double input = x;
             test_within(&bound, (double)sum[c][x], wanted[c][x], wanted[c][x], &input, 1);
         }
