@@ -30,7 +30,11 @@ run: vsgl
 $(EXAMPLES): %: $(BUILD)/%
 	$< $(ARGS)
 
-test: $(BUILD)/tests headers readme vectors
+# Two jobs at a time, also where make was not told so.
+TWO_JOBS = $(MAKE) $(if $(filter -j%,$(MAKEFLAGS)),,-j2) --no-print-directory
+
+test: force
+	@+$(TWO_JOBS) $(BUILD)/tests headers readme vectors
 	$(BUILD)/tests $(ARGS)
 
 # As drop-in as it says: tests/compile/check.sh lists the steps. JOBS of them run at a time, ARGS=NAME some of them.
@@ -101,12 +105,12 @@ $(BUILD)/common/%.o: examples/common/%.c $(wildcard examples/common/*.h) $(HEADE
 $(EXAMPLES:%=$(BUILD)/%): $(BUILD)/%: examples/%.c $(COMMON_OBJECTS) $(wildcard examples/common/*.h) $(HEADERS) $(BUILD)/flags
 	$(COMPILE) $(OPENMP) $< $(COMMON_OBJECTS) -o $@ -lm
 
-# Two at a time, also where make was not told so. tests/raster.c includes examples/common/raster.c, to count its memory.
+# tests/raster.c includes examples/common/raster.c, to count its memory.
 TEST_OBJECTS = $(TESTS:tests/%.c=$(BUILD)/unit/%.o) $(BUILD)/unit/file.o
 
 $(BUILD)/tests: force | $(BUILD)/flags
 	@mkdir -p $(BUILD)/unit
-	@+$(MAKE) -j2 --no-print-directory $(TEST_OBJECTS)
+	@+$(TWO_JOBS) $(TEST_OBJECTS)
 	$(COMPILE) $(TEST_OBJECTS) -o $@ -lm
 
 $(BUILD)/unit/%.o: tests/%.c $(wildcard tests/*.h examples/common/raster.* examples/common/file.h) $(HEADERS) $(BUILD)/flags
