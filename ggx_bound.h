@@ -583,8 +583,8 @@ LOBE_API float lobe_ggx_form_merit(lobe_ggx_form q) {
    Model:    a bound; that of ggx_bound_ellipsoid for alpha_x = alpha_y. Volume, in the geometric mean over incidence
              and alphas of .02 to 1, at most .262 of that of the larger alpha's spheroid moved to where it is a bound
              [bound ggx_bound_ellipsoid_aniso volume .262 over .02 1]
-             Over the least that some d gives: 1 % in the mean, .55 at most
-             [bound ggx_bound_ellipsoid_aniso mean .01] [bound ggx_bound_ellipsoid_aniso worst .55]
+             Over the least that some d gives: 1 % in the mean, .7 at most
+             [bound ggx_bound_ellipsoid_aniso mean .01] [bound ggx_bound_ellipsoid_aniso worst .7]
    Source:   derived for this library. D of the larger alpha is no bound, since its peak is lower. With R = r /
              sqrt(a_x a_y), X = diag(1 / a_x^2 - 1, 1 / a_y^2 - 1) turned into the tangential frame (in the plane of
              incidence, w), m = |p| wi + p and l = |p| + wi.p, the region is |p| + m.X m / (2 l) <= R, where m_t^2 + c^2
