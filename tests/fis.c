@@ -771,6 +771,8 @@ static void totals(void) {
         s.u = 0.75f;
         s.v = 0.5f;
         test_within(&bound, (double)fis_scale(&pdf, &s, 0, 4), 0x1p88, 0x1p88, in, 0);
+        test_that(fis_level_bisect(&pdf, &s, 1, 100, 20) <= (float)(pdf.levels - 1), "no level above the top one", in,
+                  0);
         free_pyramid(pdf);
     }
     { /* another channel: a smooth image, unlike the PDF */
